@@ -1,0 +1,76 @@
+// What an exported header holds: an integer Q network with everything the controller needs to trust it.
+//
+// The network is Inputs -> Hidden1 -> Hidden2 -> Actions, fully connected, ReLU between. All arithmetic is
+// integer; ">>" is the arithmetic shift (floor):
+//
+//   input i   a = clamp((raw_i * multiplier_i + 2^(shift_i - 1)) >> shift_i, -32767, 32767)     (64-bit
+//   product) hidden j  s = bias_j + sum_i weight_ji * a_i (32-bit sum)
+//             a = clamp((s + 2^(shift - 1)) >> shift, 0, 32767)
+//   action k  q = bias_k + sum_i weight_ki * a_i                                                 (32-bit sum)
+//   choice    the k of the greatest q; of equals, the lowest k
+//
+// `policy_proof.hpp` proves at compile time, from the weights, that no sum can leave 32 bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace striker::core {
+
+// State elements a policy can take, in the robot's frame (RCS, the paper's section III), and the unit of the
+// controller's integers.
+enum class StateElement : std::uint8_t {
+  ball_x = 0,       // um
+  ball_y = 1,       // um
+  robot_speed = 2,  // mm/s, signed along the heading
+  ball_vx = 3,      // mm/s, a direction: rotated, not translated
+  ball_vy = 4,      // mm/s
+  ball_angle = 5,   // of the ball's movement: binary angle, 2^16 is the full circle, in [-32768, 32767]
+};
+
+struct InputScale {
+  std::int32_t multiplier;  // 0 < multiplier <= 2^20
+  std::uint8_t shift;       // 1 to 40
+};
+
+template <int Inputs, int Outputs>
+struct Layer {
+  std::array<std::array<std::int16_t, Inputs>, Outputs> weights;
+  std::array<std::int32_t, Outputs> biases;
+  std::uint8_t shift;  // hidden layers: 1 to 30. The output layer: sum >> shift is Q in 1/256
+};
+
+struct WheelSetPoint {
+  std::int32_t left_mm_s;
+  std::int32_t right_mm_s;
+};
+
+// A raw state, what the network must answer to it, bit for bit, and the action that follows.
+template <int Inputs, int Actions>
+struct GoldenVector {
+  std::array<std::int32_t, Inputs> raw;
+  std::array<std::int32_t, Actions> sums;
+  std::uint8_t action;
+};
+
+template <int Inputs, int Hidden1, int Hidden2, int Actions, int Goldens>
+struct Policy {
+  static constexpr int inputs = Inputs;
+  static constexpr int hidden1 = Hidden1;
+  static constexpr int hidden2 = Hidden2;
+  static constexpr int actions = Actions;
+  static constexpr int goldens = Goldens;
+
+  std::uint32_t identity;            // of everything below: policy_proof.hpp recomputes it
+  std::uint32_t configuration_hash;  // FNV-1a (32 bits) of the training configuration's text
+  std::int32_t decision_period_ms;   // the period it was trained at
+  std::array<StateElement, Inputs> elements;
+  std::array<InputScale, Inputs> input_scales;
+  Layer<Inputs, Hidden1> layer1;
+  Layer<Hidden1, Hidden2> layer2;
+  Layer<Hidden2, Actions> output;
+  std::array<WheelSetPoint, Actions> set_points;
+  std::array<GoldenVector<Inputs, Actions>, Goldens> golden_vectors;
+};
+
+}  // namespace striker::core

@@ -1,0 +1,136 @@
+// The proof that a policy carries: computed by the compiler from the header's own numbers. A header that
+// could overflow, or that was altered after the export, does not compile.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "core/policy.hpp"
+
+namespace striker::core {
+
+namespace proof {
+
+inline constexpr std::int64_t sum_limit = (std::int64_t{1} << 31) - 1;
+inline constexpr std::int64_t activation_limit = 32767;
+
+// The greatest value |sum| + rounding that one neuron can reach, given the greatest |activation| it reads.
+template <std::size_t Inputs>
+constexpr std::int64_t worst_sum(const std::array<std::int16_t, Inputs>& weights, std::int32_t bias,
+                                 std::int64_t rounding, const std::array<std::int64_t, Inputs>& greatest) {
+  std::int64_t sum = (bias < 0 ? -std::int64_t{bias} : std::int64_t{bias}) + rounding;
+  for (std::size_t i = 0; i < Inputs; ++i) {
+    sum += (weights[i] < 0 ? -std::int64_t{weights[i]} : std::int64_t{weights[i]}) * greatest[i];
+  }
+  return sum;
+}
+
+template <int Outputs>
+struct LayerBounds {
+  bool fits = true;                                 // every sum stays in 32 bits
+  std::array<std::int64_t, Outputs> activations{};  // the greatest that each neuron can store
+};
+
+template <int Inputs, int Outputs>
+constexpr LayerBounds<Outputs> bound_layer(const Layer<Inputs, Outputs>& layer, bool hidden,
+                                           const std::array<std::int64_t, Inputs>& greatest) {
+  LayerBounds<Outputs> bounds;
+  const std::int64_t rounding = hidden ? std::int64_t{1} << (layer.shift - 1) : 0;
+  for (std::size_t j = 0; j < Outputs; ++j) {
+    const std::int64_t worst = worst_sum(layer.weights[j], layer.biases[j], rounding, greatest);
+    bounds.fits = bounds.fits && worst <= sum_limit;
+    bounds.activations[j] = std::min(worst >> layer.shift, activation_limit);
+  }
+  return bounds;
+}
+
+// FNV-1a, 32 bits (Fowler, Noll, Vo), over little-endian bytes. Each step is a bijection of the hash, so one
+// altered number always changes the result.
+class Fnv1a {
+ public:
+  template <class Integer>
+  constexpr void add(Integer value) {
+    for (std::size_t byte = 0; byte < sizeof(Integer); ++byte) {
+      hash_ = (hash_ ^ ((static_cast<std::uint64_t>(value) >> (8 * byte)) & 0xFFU)) * 16777619U;
+    }
+  }
+  [[nodiscard]] constexpr std::uint32_t value() const { return hash_; }
+
+ private:
+  std::uint32_t hash_ = 2166136261U;
+};
+
+template <int Inputs, int Outputs>
+constexpr void add_layer(Fnv1a& hash, const Layer<Inputs, Outputs>& layer) {
+  for (const auto& row : layer.weights) {
+    for (const std::int16_t weight : row) {
+      hash.add(weight);
+    }
+  }
+  for (const std::int32_t bias : layer.biases) {
+    hash.add(bias);
+  }
+  hash.add(layer.shift);
+}
+
+}  // namespace proof
+
+// All shifts and multipliers are in the ranges that policy.hpp states.
+template <int I, int H1, int H2, int A, int G>
+constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G>& policy) {
+  const auto hidden_shift = [](std::uint8_t shift) { return shift >= 1 && shift <= 30; };
+  bool valid = hidden_shift(policy.layer1.shift) && hidden_shift(policy.layer2.shift) &&
+               policy.output.shift <= 30 && policy.decision_period_ms > 0;
+  for (const InputScale& scale : policy.input_scales) {
+    valid = valid && scale.multiplier > 0 && scale.multiplier <= (1 << 20) && scale.shift >= 1 &&
+            scale.shift <= 40;
+  }
+  return valid;
+}
+
+// No input whatever can drive any neuron's 32-bit sum, rounding included, out of range.
+template <int I, int H1, int H2, int A, int G>
+constexpr bool sums_fit(const Policy<I, H1, H2, A, G>& policy) {
+  std::array<std::int64_t, I> input_bounds{};
+  input_bounds.fill(proof::activation_limit);
+  const auto layer1 = proof::bound_layer(policy.layer1, true, input_bounds);
+  const auto layer2 = proof::bound_layer(policy.layer2, true, layer1.activations);
+  const auto output = proof::bound_layer(policy.output, false, layer2.activations);
+  return layer1.fits && layer2.fits && output.fits;
+}
+
+// The identity of everything that decides an action or proves one. Fields are hashed in the order of their
+// declaration, each as the little-endian bytes of its declared type.
+template <int I, int H1, int H2, int A, int G>
+constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G>& policy) {
+  proof::Fnv1a hash;
+  hash.add(policy.configuration_hash);
+  hash.add(policy.decision_period_ms);
+  for (const StateElement element : policy.elements) {
+    hash.add(static_cast<std::uint8_t>(element));
+  }
+  for (const InputScale& scale : policy.input_scales) {
+    hash.add(scale.multiplier);
+    hash.add(scale.shift);
+  }
+  proof::add_layer(hash, policy.layer1);
+  proof::add_layer(hash, policy.layer2);
+  proof::add_layer(hash, policy.output);
+  for (const WheelSetPoint& set_point : policy.set_points) {
+    hash.add(set_point.left_mm_s);
+    hash.add(set_point.right_mm_s);
+  }
+  for (const auto& golden : policy.golden_vectors) {
+    for (const std::int32_t raw : golden.raw) {
+      hash.add(raw);
+    }
+    for (const std::int32_t sum : golden.sums) {
+      hash.add(sum);
+    }
+    hash.add(golden.action);
+  }
+  return hash.value();
+}
+
+}  // namespace striker::core

@@ -1,0 +1,39 @@
+// What a run over many kick episodes says: the same figures and the same JSON from every program.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "world/kick_task.hpp"
+
+namespace striker::sil {
+
+struct KickRun {
+  std::uint64_t seed = 0;
+  std::string plant;   // "servo" or "drive"
+  std::string pose;    // "origin" or "anywhere"
+  std::string policy;  // the identity of the policy or model, 8 hexadecimal digits
+  double simulated_s = 0.0;
+  double wall_s = 0.0;
+  std::vector<KickOutcome> episodes;
+};
+
+struct KickSummary {
+  double mean_reward = 0.0;
+  double reward_ci95 = 0.0;  // half-width, normal approximation: 1.96 s / sqrt(n)
+  double contact_rate = 0.0;
+  double kick_rate = 0.0;
+};
+
+[[nodiscard]] KickSummary summarise(const std::vector<KickOutcome>& episodes);
+
+// The JSON summary with the per-episode rows. Written to a temporary file, then renamed. Throws
+// std::runtime_error that names the file and the way out.
+void write_json(const KickRun& run, const std::filesystem::path& file);
+
+// The table for a terminal: a row an episode, then the means.
+[[nodiscard]] std::string format_table(const KickRun& run, bool rows);
+
+}  // namespace striker::sil

@@ -1,0 +1,66 @@
+// The official kick task: one definition for training, evaluation and SIL.
+//
+// An open floor, one forward robot, 40 decisions of 50 ms. The ball starts on the circle of 2 m around the
+// robot and rolls towards a point near the robot; the target lies in the direction of the robot's initial
+// heading, at infinity. Reward (paper, section IV.A): -0.1 for each decision without contact so far; the
+// decision of the contact gets 3 cos(theta_contact) + 3.92 V_contact; 0 after. Without contact: -4.
+#pragma once
+
+#include <cstdint>
+
+#include "world/world.hpp"
+
+namespace striker::sil {
+
+inline constexpr int kick_decisions = 40;
+inline constexpr double decision_period_s = 0.050;
+
+enum class PoseMode { origin, anywhere };
+
+struct KickStart {
+  Pose robot;
+  BallState ball;
+};
+
+// Episode i is a pure function of (seed, i), drawn in the robot's frame; the pose comes from a stream of its
+// own, so that it changes nothing else.
+[[nodiscard]] KickStart draw_kick(std::uint64_t seed, std::uint64_t episode, PoseMode pose);
+
+// The ball `ahead_s` seconds before the start, led back along its path kinematically: what a camera would
+// have seen of an episode that begins at `start`.
+[[nodiscard]] BallState ball_before(const KickStart& start, double ahead_s);
+
+// The world that the task is played in, at this physics step.
+[[nodiscard]] WorldConfig kick_world(double step_s);
+
+struct KickOutcome {
+  bool contact = false;
+  int contact_decision = -1;       // 0 to 39
+  double theta_contact_rad = 0.0;  // from the target's direction to the line robot centre -> ball centre
+  double v_contact_m_s = 0.0;      // the robot's speed along its heading, signed
+  bool front_face = false;         // the contact was on the front face
+  double reward = 0.0;             // the sum so far
+  bool ball_measured = false;      // 100 ms have passed since the contact
+  double ball_speed_m_s = 0.0;     // 100 ms after the contact
+  double ball_angle_rad = 0.0;     // of the ball's movement against the target's direction, then
+  bool kicked = false;             // front face, then within 15 degrees at more than 1 m/s
+};
+
+// Watches one episode. The caller drives the wheels, and steps the world through `step` only:
+//   begin, then 40 times: (steps of 50 ms in all, end_decision), then steps of 100 ms to see the ball leave.
+class KickEpisode {
+ public:
+  void begin(World& world, const KickStart& start);  // places robot and ball
+  void step(World& world);
+  double end_decision();  // the reward of the decision that ends here
+  [[nodiscard]] const KickOutcome& outcome() const { return outcome_; }
+
+ private:
+  double target_heading_rad_ = 0.0;
+  double since_contact_s_ = 0.0;
+  int decision_ = 0;
+  bool contact_paid_ = false;
+  KickOutcome outcome_;
+};
+
+}  // namespace striker::sil

@@ -1,0 +1,78 @@
+// The AI Soccer world in ODE: field, ball, and one to ten two-wheel robots, with full wheel bodies.
+//
+// Coordinates: x along the field towards the opponent's goal, y to the left, origin in the centre; headings
+// are anticlockwise from +x. SI units. One World is used by one thread at a time; many worlds may live in
+// one process. The same sequence of calls gives the same bits, whatever the world did before it was placed.
+//
+// Constants: AI World Cup test_world, branch master 37312a93 (2019), unless a comment names another source.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace striker::sil {
+
+struct Vec2 {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+struct Pose {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;
+};
+
+struct BallState {
+  Vec2 position_m;
+  Vec2 velocity_m_s;
+};
+
+enum class Role { goalkeeper, defender, forward };
+enum class Wheel { left, right };
+
+struct WorldConfig {
+  std::vector<Role> robots = {Role::forward};  // one to ten
+  bool walls = true;                           // false: an open floor (the kick task)
+  double step_s = 0.010;                       // contact stiffness and damping are kept the same at any step
+};
+
+class World {
+ public:
+  explicit World(const WorldConfig& config);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  // At rest on the floor, wheels still; forgets everything the robot did before.
+  void place_robot(std::size_t robot, const Pose& pose);
+  // On the floor, rolling without slip.
+  void place_ball(const BallState& ball);
+
+  // How each wheel is driven in the coming steps; the last call holds. A servo holds the rim speed within a
+  // torque ceiling (the paper's motor); a torque acts as it is.
+  void servo_wheel(std::size_t robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm);
+  void torque_wheel(std::size_t robot, Wheel wheel, double torque_Nm);
+
+  // One physics step: collision test, exact stepper, damping. No allocation after the first steps.
+  void step();
+
+  // In the collision test of the last step, did the robot's body meet the ball? Then the contact's unit
+  // normal in world axes, pointing from the robot to the ball.
+  [[nodiscard]] std::optional<Vec2> ball_contact(std::size_t robot) const;
+
+  [[nodiscard]] Pose robot_pose(std::size_t robot) const;
+  [[nodiscard]] Vec2 robot_velocity_m_s(std::size_t robot) const;
+  // Rim speed relative to the body, positive forward.
+  [[nodiscard]] double rim_speed_m_s(std::size_t robot, Wheel wheel) const;
+  [[nodiscard]] BallState ball() const;
+  [[nodiscard]] double step_s() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace striker::sil
