@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace striker::core {
@@ -33,7 +34,7 @@ struct InputScale {
   std::uint8_t shift;       // 1 to 40
 };
 
-template <int Inputs, int Outputs>
+template <std::size_t Inputs, std::size_t Outputs>
 struct Layer {
   std::array<std::array<std::int16_t, Inputs>, Outputs> weights;
   std::array<std::int32_t, Outputs> biases;
@@ -46,20 +47,21 @@ struct WheelSetPoint {
 };
 
 // A raw state, what the network must answer to it, bit for bit, and the action that follows.
-template <int Inputs, int Actions>
+template <std::size_t Inputs, std::size_t Actions>
 struct GoldenVector {
   std::array<std::int32_t, Inputs> raw;
   std::array<std::int32_t, Actions> sums;
   std::uint8_t action;
 };
 
-template <int Inputs, int Hidden1, int Hidden2, int Actions, int Goldens>
+template <std::size_t Inputs, std::size_t Hidden1, std::size_t Hidden2, std::size_t Actions,
+          std::size_t Goldens>
 struct Policy {
-  static constexpr int inputs = Inputs;
-  static constexpr int hidden1 = Hidden1;
-  static constexpr int hidden2 = Hidden2;
-  static constexpr int actions = Actions;
-  static constexpr int goldens = Goldens;
+  static constexpr std::size_t inputs = Inputs;
+  static constexpr std::size_t hidden1 = Hidden1;
+  static constexpr std::size_t hidden2 = Hidden2;
+  static constexpr std::size_t actions = Actions;
+  static constexpr std::size_t goldens = Goldens;
 
   std::uint32_t identity;            // of everything below: policy_proof.hpp recomputes it
   std::uint32_t configuration_hash;  // FNV-1a (32 bits) of the training configuration's text

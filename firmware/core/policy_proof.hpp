@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/policy.hpp"
@@ -26,13 +27,13 @@ constexpr std::int64_t worst_sum(const std::array<std::int16_t, Inputs>& weights
   return sum;
 }
 
-template <int Outputs>
+template <std::size_t Outputs>
 struct LayerBounds {
   bool fits = true;                                 // every sum stays in 32 bits
   std::array<std::int64_t, Outputs> activations{};  // the greatest that each neuron can store
 };
 
-template <int Inputs, int Outputs>
+template <std::size_t Inputs, std::size_t Outputs>
 constexpr LayerBounds<Outputs> bound_layer(const Layer<Inputs, Outputs>& layer, bool hidden,
                                            const std::array<std::int64_t, Inputs>& greatest) {
   LayerBounds<Outputs> bounds;
@@ -52,7 +53,9 @@ class Fnv1a {
   template <class Integer>
   constexpr void add(Integer value) {
     for (std::size_t byte = 0; byte < sizeof(Integer); ++byte) {
-      hash_ = (hash_ ^ ((static_cast<std::uint64_t>(value) >> (8 * byte)) & 0xFFU)) * 16777619U;
+      const auto octet =
+          static_cast<std::uint32_t>((static_cast<std::uint64_t>(value) >> (8 * byte)) & 0xFFU);
+      hash_ = (hash_ ^ octet) * 16777619U;
     }
   }
   [[nodiscard]] constexpr std::uint32_t value() const { return hash_; }
@@ -61,7 +64,7 @@ class Fnv1a {
   std::uint32_t hash_ = 2166136261U;
 };
 
-template <int Inputs, int Outputs>
+template <std::size_t Inputs, std::size_t Outputs>
 constexpr void add_layer(Fnv1a& hash, const Layer<Inputs, Outputs>& layer) {
   for (const auto& row : layer.weights) {
     for (const std::int16_t weight : row) {
@@ -77,7 +80,7 @@ constexpr void add_layer(Fnv1a& hash, const Layer<Inputs, Outputs>& layer) {
 }  // namespace proof
 
 // All shifts and multipliers are in the ranges that policy.hpp states.
-template <int I, int H1, int H2, int A, int G>
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
 constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G>& policy) {
   const auto hidden_shift = [](std::uint8_t shift) { return shift >= 1 && shift <= 30; };
   bool valid = hidden_shift(policy.layer1.shift) && hidden_shift(policy.layer2.shift) &&
@@ -90,7 +93,7 @@ constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G>& policy) {
 }
 
 // No input whatever can drive any neuron's 32-bit sum, rounding included, out of range.
-template <int I, int H1, int H2, int A, int G>
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
 constexpr bool sums_fit(const Policy<I, H1, H2, A, G>& policy) {
   std::array<std::int64_t, I> input_bounds{};
   input_bounds.fill(proof::activation_limit);
@@ -102,7 +105,7 @@ constexpr bool sums_fit(const Policy<I, H1, H2, A, G>& policy) {
 
 // The identity of everything that decides an action or proves one. Fields are hashed in the order of their
 // declaration, each as the little-endian bytes of its declared type.
-template <int I, int H1, int H2, int A, int G>
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
 constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G>& policy) {
   proof::Fnv1a hash;
   hash.add(policy.configuration_hash);
