@@ -1,0 +1,18 @@
+// A classic CAN 2.0A data frame: 11-bit identifier, 0 to 8 bytes. Extended, remote and error frames never
+// reach this type; the ports handle them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace striker::can {
+
+struct Frame {
+  std::uint16_t id = 0;
+  std::uint8_t length = 0;
+  std::array<std::uint8_t, 8> data{};
+
+  bool operator==(const Frame&) const = default;
+};
+
+}  // namespace striker::can

@@ -1,0 +1,101 @@
+// The vocabulary of the message table: what a signal and a message are, and when a table is sound.
+//
+// A message is a plain struct of 32-bit integers, one a signal, in raw counts. Bits are numbered as in a DBC
+// with little-endian signals: bit 0 is the lowest of byte 0. In protected messages bits 0 to 11 belong to
+// E2E.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace striker::can {
+
+// digits * 10^exponent: scales stay exact without floating point.
+struct Decimal {
+  std::int64_t digits = 1;
+  std::int8_t exponent = 0;
+};
+
+struct NamedValue {
+  std::int32_t raw;
+  std::string_view name;
+};
+
+template <class Message>
+struct Signal {
+  std::string_view name;
+  std::int32_t Message::*field;
+  std::uint8_t first_bit;
+  std::uint8_t bits;  // 1 to 31 unsigned, 2 to 32 signed
+  bool is_signed;
+  std::int32_t minimum;  // raw; a receiver ignores a message with any signal outside
+  std::int32_t maximum;
+  Decimal scale = {};
+  std::string_view unit = "";
+  std::span<const NamedValue> values = {};
+};
+
+enum class Node : std::uint8_t { controller, drives, operator_, simulator, vision };
+
+inline constexpr std::array<std::string_view, 5> node_names = {"Controller", "Drives", "Operator",
+                                                               "Simulator", "Vision"};
+
+inline constexpr std::uint16_t unprotected = 0;
+
+struct MessageInfo {
+  std::string_view name;
+  std::uint16_t id;
+  std::uint8_t length;
+  Node sender;
+  std::uint16_t period_ms;   // 0: on events
+  std::uint16_t timeout_ms;  // a receiver's freshness limit; 0: none
+  std::uint16_t data_id;     // E2E data ID, or `unprotected`
+  std::string_view comment;
+};
+
+template <class Message, std::size_t Signals>
+struct Layout {
+  MessageInfo info;
+  std::array<Signal<Message>, Signals> signals;
+};
+
+// Specialised once for every message, in messages.hpp.
+template <class Message>
+inline constexpr auto layout = nullptr;
+
+namespace detail {
+
+constexpr std::uint64_t bit_mask(unsigned bits) {
+  return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+}
+
+template <class Message>
+constexpr bool range_is_representable(const Signal<Message>& signal) {
+  const int value_bits = signal.is_signed ? signal.bits - 1 : signal.bits;
+  const std::int64_t greatest = (std::int64_t{1} << value_bits) - 1;
+  const std::int64_t least = signal.is_signed ? -greatest - 1 : 0;
+  return value_bits <= 31 && least <= signal.minimum && signal.minimum <= signal.maximum &&
+         signal.maximum <= greatest;
+}
+
+}  // namespace detail
+
+// Signals fit the length, do not overlap each other or the E2E bits, and their ranges fit their bits.
+template <class Message>
+constexpr bool layout_is_sound() {
+  const auto& [info, signals] = layout<Message>;
+  std::uint64_t taken = info.data_id == unprotected ? 0 : detail::bit_mask(12);
+  bool sound = info.id <= 0x7FF && info.length >= 1 && info.length <= 8;
+  for (const auto& signal : signals) {
+    const std::uint64_t bits = detail::bit_mask(signal.bits) << signal.first_bit;
+    sound = sound && signal.bits >= 1 && signal.first_bit + signal.bits <= 8 * info.length &&
+            (taken & bits) == 0 && detail::range_is_representable(signal);
+    taken |= bits;
+  }
+  return sound;
+}
+
+}  // namespace striker::can

@@ -1,0 +1,70 @@
+// Where robot and ball are, and how they move, from what the bus tells: positions from the vision, 50 ms
+// apart and without velocities, and wheel speeds every tick.
+//
+// The ball's velocity is the difference of the last two complete vision pairs over the time between their
+// frame numbers. Between pairs the ball is led on along its velocity and the robot along its heading by its
+// wheel speeds. Positions in um; a speed in mm/s times a tick of 1 ms is a distance in um.
+#pragma once
+
+#include <cstdint>
+
+#include "can/messages.hpp"
+#include "core/angle.hpp"
+
+namespace striker::core {
+
+inline constexpr std::int32_t vision_period_ticks = can::layout<can::VisionPose>.info.period_ms;
+
+// With more frames lost than this between two pairs, no velocity is drawn from them.
+inline constexpr std::int32_t greatest_frame_step = 4;
+
+struct Picture {
+  std::int32_t frame = 0;
+  Vector robot_um;
+  BinaryAngle heading = 0;
+  Vector ball_um;
+};
+
+struct Estimate {
+  Vector robot_um;
+  BinaryAngle heading = 0;
+  std::int32_t robot_speed_mm_s = 0;  // signed, along the heading
+  Vector ball_um;
+  Vector ball_velocity_mm_s;
+};
+
+class Estimator {
+ public:
+  // Forgets every picture: what comes after a reset shares nothing with what was before.
+  void reset();
+
+  void take_pose(const can::VisionPose& pose);
+  void take_ball(const can::VisionBall& ball);
+  void take_wheels(const can::WheelState& wheels);
+
+  // Ends the taking of this tick's frames. True if a pair of pose and ball was completed in it.
+  bool end_tick(std::uint32_t tick);
+
+  // Two pictures near enough in time to draw a velocity from.
+  [[nodiscard]] bool has_velocity() const { return has_velocity_; }
+
+  [[nodiscard]] Estimate at(std::uint32_t tick) const;
+
+ private:
+  void take_picture(std::uint32_t tick);
+
+  Picture incoming_;  // pose and ball arrive apart: complete when their frame numbers agree
+  bool pose_waits_ = false;
+  bool ball_waits_ = false;
+  std::int32_t ball_frame_ = 0;
+
+  Picture last_;
+  std::uint32_t last_tick_ = 0;
+  bool has_picture_ = false;
+  bool has_velocity_ = false;
+  Vector ball_velocity_mm_s_;
+  std::int32_t travelled_um_ = 0;  // since the last picture
+  std::int32_t robot_speed_mm_s_ = 0;
+};
+
+}  // namespace striker::core
