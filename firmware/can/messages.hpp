@@ -118,7 +118,6 @@ struct Status {
   std::int32_t wrong_crc = 0;
   std::int32_t wrong_counter = 0;
   std::int32_t out_of_range = 0;
-  std::int32_t mode_counter = 0;  // E2E counter of the last accepted mode command
   std::int32_t vision_ready = 0;  // 1: two fresh vision pairs: the controller could be armed
   std::int32_t wheels_ready = 0;  // 1: the wheel states are fresh
 };
@@ -215,7 +214,7 @@ inline constexpr auto layout<VisionBall> = Layout<VisionBall, 3>{
       {"y", &VisionBall::y_quarter_mm, 32, 16, true, -32768, 32767, units::quarter, "mm"}}}};
 
 template <>
-inline constexpr auto layout<Status> = Layout<Status, 9>{
+inline constexpr auto layout<Status> = Layout<Status, 8>{
     {"Status", 0x100, 8, Node::controller, 10, 100, 0x5B00, "State, latched fault, ignored frames."},
     {{{"state", &Status::state, 12, 4, false, 0, 4, {}, "", state_names},
       {"fault", &Status::fault, 16, 8, false, 0, 9, {}, "", fault_names},
@@ -223,9 +222,8 @@ inline constexpr auto layout<Status> = Layout<Status, 9>{
       {"wrong_crc", &Status::wrong_crc, 32, 8, false, 0, 255},
       {"wrong_counter", &Status::wrong_counter, 40, 8, false, 0, 255},
       {"out_of_range", &Status::out_of_range, 48, 8, false, 0, 255},
-      {"mode_counter", &Status::mode_counter, 56, 4, false, 0, 15},
-      {"vision_ready", &Status::vision_ready, 60, 1, false, 0, 1},
-      {"wheels_ready", &Status::wheels_ready, 61, 1, false, 0, 1}}}};
+      {"vision_ready", &Status::vision_ready, 56, 1, false, 0, 1},
+      {"wheels_ready", &Status::wheels_ready, 57, 1, false, 0, 1}}}};
 
 template <>
 inline constexpr auto layout<Decision> = Layout<Decision, 5>{

@@ -7,10 +7,9 @@ namespace striker::core {
 namespace {
 
 // atan(2^-i) in units of 2^-32 of the circle.
-constexpr std::array<std::int32_t, 16> step_angles = {536870912, 316933406, 167458907, 85004756,
-                                                      42667331,  21354465,  10679838,  5340245,
-                                                      2670163,   1335087,   667544,    333772,
-                                                      166886,    83443,     41722,     20861};
+constexpr std::array<std::int32_t, 16> step_angles = {
+    536870912, 316933406, 167458907, 85004756, 42667331, 21354465, 10679838, 5340245,
+    2670163,   1335087,   667544,    333772,   166886,   83443,    41722,    20861};
 
 // 1 / (product of sqrt(1 + 2^-2i)), i = 0 to 15, in Q31: undoes the growth that the steps cause.
 constexpr std::int64_t inverse_gain_q31 = 1304065748;
@@ -22,9 +21,13 @@ constexpr std::int32_t undo_gain(std::int32_t grown) {
 }
 
 // All ones for a negative number, else 0: chooses a sign without a branch.
-constexpr std::int32_t sign_mask(std::int32_t value) { return value >> 31; }
+constexpr std::int32_t sign_mask(std::int32_t value) {
+  return value >> 31;
+}
 
-constexpr std::int32_t negate_if(std::int32_t mask, std::int32_t value) { return (value ^ mask) - mask; }
+constexpr std::int32_t negate_if(std::int32_t mask, std::int32_t value) {
+  return (value ^ mask) - mask;
+}
 
 constexpr std::int32_t wrapped_sum(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));

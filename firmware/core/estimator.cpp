@@ -1,13 +1,15 @@
 #include "core/estimator.hpp"
 
+#include <algorithm>
+
 namespace striker::core {
 
 namespace {
 
 constexpr std::int32_t um_per_quarter_mm = 250;
 
-// Led on for at most the freshness limit, and no faster than this: the sums stay far from 32 bits.
-constexpr std::int32_t greatest_led_ticks = 1000;
+// Far beyond the vision's freshness limit; it keeps every product within 32 bits.
+constexpr std::uint32_t greatest_led_ticks = 1000;
 
 constexpr Vector to_um(std::int32_t x_quarter_mm, std::int32_t y_quarter_mm) {
   return {x_quarter_mm * um_per_quarter_mm, y_quarter_mm * um_per_quarter_mm};
@@ -16,9 +18,10 @@ constexpr Vector to_um(std::int32_t x_quarter_mm, std::int32_t y_quarter_mm) {
 }  // namespace
 
 void Estimator::reset() {
-  const std::int32_t speed_mm_s = robot_speed_mm_s_;
+  const Estimator before = *this;
   *this = Estimator{};
-  robot_speed_mm_s_ = speed_mm_s;
+  robot_speed_mm_s_ = before.robot_speed_mm_s_;
+  led_to_tick_ = before.led_to_tick_;
 }
 
 void Estimator::take_pose(const can::VisionPose& pose) {
@@ -39,7 +42,10 @@ void Estimator::take_wheels(const can::WheelState& wheels) {
 }
 
 bool Estimator::end_tick(std::uint32_t tick) {
-  travelled_um_ += robot_speed_mm_s_;
+  if (tick - last_tick_ <= greatest_led_ticks) {
+    travelled_um_ += robot_speed_mm_s_ * static_cast<std::int32_t>(tick - led_to_tick_);
+  }
+  led_to_tick_ = tick;
   if (!pose_waits_ || !ball_waits_ || incoming_.frame != ball_frame_) {
     return false;
   }
@@ -67,8 +73,7 @@ void Estimator::take_picture(std::uint32_t tick) {
 }
 
 Estimate Estimator::at(std::uint32_t tick) const {
-  const std::uint32_t age = tick - last_tick_;
-  const auto led_ticks = age < greatest_led_ticks ? static_cast<std::int32_t>(age) : greatest_led_ticks;
+  const auto led_ticks = static_cast<std::int32_t>(std::min(tick - last_tick_, greatest_led_ticks));
   const Vector travelled = rotate({travelled_um_, 0}, last_.heading);
   return {{last_.robot_um.x + travelled.x, last_.robot_um.y + travelled.y},
           last_.heading,

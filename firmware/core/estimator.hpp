@@ -35,7 +35,7 @@ struct Estimate {
 
 class Estimator {
  public:
-  // Forgets every picture: what comes after a reset shares nothing with what was before.
+  // Forgets every picture (the robot or the ball may have been placed elsewhere); the wheel speed stays.
   void reset();
 
   void take_pose(const can::VisionPose& pose);
@@ -64,6 +64,7 @@ class Estimator {
   bool has_velocity_ = false;
   Vector ball_velocity_mm_s_;
   std::int32_t travelled_um_ = 0;  // since the last picture
+  std::uint32_t led_to_tick_ = 0;
   std::int32_t robot_speed_mm_s_ = 0;
 };
 

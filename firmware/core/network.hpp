@@ -14,8 +14,10 @@ namespace striker::core {
 
 namespace kernel {
 
-// All ones if a < b, else 0. The difference must fit 32 bits.
-constexpr std::int32_t less_mask(std::int32_t a, std::int32_t b) { return (a - b) >> 31; }
+// All ones if a < b, else 0.
+constexpr std::int32_t less_mask(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int32_t>((a - b) >> 63);
+}
 
 constexpr std::int32_t select(std::int32_t mask, std::int32_t if_set, std::int32_t otherwise) {
   return otherwise ^ ((if_set ^ otherwise) & mask);
@@ -30,8 +32,8 @@ constexpr std::int16_t saturate_relu(std::int32_t value) {
 constexpr std::int16_t scale_input(std::int32_t raw, const InputScale& scale) {
   const std::int64_t product = std::int64_t{raw} * scale.multiplier;
   const std::int64_t scaled = (product + (std::int64_t{1} << (scale.shift - 1))) >> scale.shift;
-  const auto above = -static_cast<std::int64_t>(scaled > 32767);
-  const auto below = -static_cast<std::int64_t>(scaled < -32767);
+  const std::int64_t above = less_mask(32767, scaled);
+  const std::int64_t below = less_mask(scaled, -32767);
   return static_cast<std::int16_t>((scaled & ~(above | below)) | (above & 32767) | (below & -32767));
 }
 
@@ -51,7 +53,8 @@ constexpr void hidden_layer(const Layer<Inputs, Outputs>& layer,
                             std::array<std::int16_t, Outputs>& result) {
   const std::int32_t rounding = std::int32_t{1} << (layer.shift - 1);
   for (std::size_t j = 0; j < Outputs; ++j) {
-    result[j] = saturate_relu((dot(layer.weights[j], activations, layer.biases[j]) + rounding) >> layer.shift);
+    result[j] =
+        saturate_relu((dot(layer.weights[j], activations, layer.biases[j]) + rounding) >> layer.shift);
   }
 }
 
@@ -79,17 +82,11 @@ template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::siz
   for (std::size_t k = 0; k < A; ++k) {
     q.sums[k] = kernel::dot(policy.output.weights[k], hidden2, policy.output.biases[k]);
   }
-  // Half of a sum never differs from half of another by 2^31: the mask needs that.
-  std::int32_t best_half = q.sums[0] >> 1;
-  std::int32_t best_low = q.sums[0] & 1;
+  std::int32_t best = q.sums[0];
   std::int32_t action = 0;
   for (std::size_t k = 1; k < A; ++k) {
-    const std::int32_t half = q.sums[k] >> 1;
-    const std::int32_t low = q.sums[k] & 1;
-    const std::int32_t greater =
-        kernel::less_mask(best_half, half) | (~kernel::less_mask(half, best_half) & kernel::less_mask(best_low, low));
-    best_half = kernel::select(greater, half, best_half);
-    best_low = kernel::select(greater, low, best_low);
+    const std::int32_t greater = kernel::less_mask(best, q.sums[k]);
+    best = kernel::select(greater, q.sums[k], best);
     action = kernel::select(greater, static_cast<std::int32_t>(k), action);
   }
   q.action = static_cast<std::uint8_t>(action);

@@ -21,10 +21,11 @@ constexpr bool at_rest(Vector velocity_mm_s) {
 
 RelativeState relative_state(const Estimate& estimate) {
   const BinaryAngle back = wrap_angle(-estimate.heading);
-  const Vector offset_um = {estimate.ball_um.x - estimate.robot_um.x, estimate.ball_um.y - estimate.robot_um.y};
-  const Vector velocity = rotate({estimate.ball_velocity_mm_s.x * (1 << guard_bits),
-                                  estimate.ball_velocity_mm_s.y * (1 << guard_bits)},
-                                 back);
+  const Vector offset_um = {estimate.ball_um.x - estimate.robot_um.x,
+                            estimate.ball_um.y - estimate.robot_um.y};
+  const Vector velocity = rotate(
+      {estimate.ball_velocity_mm_s.x * (1 << guard_bits), estimate.ball_velocity_mm_s.y * (1 << guard_bits)},
+      back);
   RelativeState state;
   state.ball_um = rotate(offset_um, back);
   state.robot_speed_mm_s = estimate.robot_speed_mm_s;
