@@ -1,0 +1,131 @@
+#include "ports/linux/can_socket.hpp"
+
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+namespace striker::linux_port {
+
+namespace {
+
+std::string error_text() {
+  return std::strerror(errno);
+}
+
+std::string how_to_create(const std::string& interface) {
+  return "create it with 'ip link add dev " + interface + " type vcan && ip link set up " + interface +
+         "', or run under tools/with-vcan";
+}
+
+std::vector<can_filter> filters_for(std::span<const std::uint16_t> identifiers) {
+  std::vector<can_filter> filters;
+  filters.reserve(identifiers.size());
+  for (const std::uint16_t id : identifiers) {
+    filters.push_back({id, CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG});
+  }
+  return filters;
+}
+
+}  // namespace
+
+void CanSocket::fail(const std::string& what) const {
+  const std::string message = "CAN interface '" + interface_ + "': " + what;
+  if (socket_ >= 0) {
+    close(socket_);
+  }
+  throw std::runtime_error(message);
+}
+
+CanSocket::CanSocket(const std::string& interface, std::span<const std::uint16_t> identifiers)
+    : interface_(interface) {
+  socket_ = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
+  if (socket_ < 0) {
+    fail("this kernel has no CAN (" + error_text() +
+         "): load it with 'modprobe can-raw', or run under tools/with-vcan, or use striker-sil --bus inproc");
+  }
+  if (interface.empty() || interface.size() >= IFNAMSIZ) {
+    fail("a name has 1 to 15 characters; try vcan0");
+  }
+  ifreq request{};
+  std::copy(interface.begin(), interface.end(), request.ifr_name);
+  if (ioctl(socket_, SIOCGIFINDEX, &request) != 0) {
+    fail("no such interface: " + how_to_create(interface));
+  }
+  const int index = request.ifr_ifindex;
+  if (ioctl(socket_, SIOCGIFFLAGS, &request) != 0 || (request.ifr_flags & IFF_UP) == 0) {
+    fail("the interface is down: bring it up with 'ip link set up " + interface + "'");
+  }
+  const std::vector<can_filter> filters = filters_for(identifiers);
+  const can_err_mask_t errors = CAN_ERR_BUSOFF;
+  if (setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
+                 static_cast<socklen_t>(filters.size() * sizeof(can_filter))) != 0 ||
+      setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors) != 0) {
+    fail("cannot set receive filters (" + error_text() + ")");
+  }
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = index;
+  if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    fail("cannot bind (" + error_text() + "): is it a CAN interface?");
+  }
+}
+
+CanSocket::~CanSocket() {
+  close(socket_);
+}
+
+bool CanSocket::send(const can::Frame& frame) {
+  can_frame wire{};
+  wire.can_id = frame.id;
+  wire.len = frame.length;
+  std::copy_n(frame.data.begin(), frame.length, wire.data);
+  if (write(socket_, &wire, sizeof wire) == static_cast<ssize_t>(sizeof wire)) {
+    return true;
+  }
+  if (errno == ENODEV || errno == ENXIO || errno == ENETDOWN) {
+    const std::string why = error_text();
+    throw std::runtime_error("CAN interface '" + interface_ + "': cannot send (" + why +
+                             "): the interface went away or down; bring it up and start again");
+  }
+  return false;
+}
+
+std::optional<can::Frame> CanSocket::receive() {
+  can_frame wire{};
+  while (read(socket_, &wire, sizeof wire) == static_cast<ssize_t>(sizeof wire)) {
+    if ((wire.can_id & CAN_ERR_FLAG) != 0) {
+      bus_off_ = bus_off_ || (wire.can_id & CAN_ERR_BUSOFF) != 0;
+      continue;
+    }
+    can::Frame frame{static_cast<std::uint16_t>(wire.can_id & CAN_SFF_MASK), wire.len, {}};
+    std::copy_n(wire.data, std::min<std::size_t>(wire.len, frame.data.size()), frame.data.begin());
+    return frame;
+  }
+  return std::nullopt;
+}
+
+bool CanSocket::wait(std::chrono::microseconds timeout) {
+  pollfd waiting{socket_, POLLIN, 0};
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+  const timespec limit{seconds.count(), std::chrono::nanoseconds(timeout - seconds).count()};
+  return ppoll(&waiting, 1, &limit, nullptr) > 0;
+}
+
+bool CanSocket::take_bus_off() {
+  const bool was = bus_off_;
+  bus_off_ = false;
+  return was;
+}
+
+}  // namespace striker::linux_port

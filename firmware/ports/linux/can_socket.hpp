@@ -1,0 +1,47 @@
+// A SocketCAN raw socket on one interface (linux/can/raw.h). Blocking is in `wait` alone; sending and
+// receiving never block. One thread at a time.
+//
+// The constructor throws std::runtime_error with one line that names the interface and the way out: a kernel
+// without CAN, no such interface, an interface that is down or that is no CAN interface.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "can/frame.hpp"
+
+namespace striker::linux_port {
+
+class CanSocket {
+ public:
+  // Receives data frames with these identifiers only, and the bus's error frames.
+  CanSocket(const std::string& interface, std::span<const std::uint16_t> identifiers);
+  ~CanSocket();
+  CanSocket(const CanSocket&) = delete;
+  CanSocket& operator=(const CanSocket&) = delete;
+
+  // False if the frame was dropped: the interface's queue is full or the bus is off. An interface that has
+  // gone throws.
+  bool send(const can::Frame& frame);
+
+  // The next frame that waits, or nothing. Error frames are taken note of, not returned.
+  std::optional<can::Frame> receive();
+
+  // True when something can be received; false at the timeout or at a signal.
+  bool wait(std::chrono::microseconds timeout);
+
+  // True if an error frame has reported bus-off since the last call.
+  bool take_bus_off();
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::string interface_;
+  int socket_ = -1;
+  bool bus_off_ = false;
+};
+
+}  // namespace striker::linux_port

@@ -1,0 +1,25 @@
+#include "ports/linux/stop_signal.hpp"
+
+#include <csignal>
+
+namespace striker::linux_port {
+
+namespace {
+
+// A signal handler may write nothing but such a flag (C++ [support.signal]).
+volatile std::sig_atomic_t stop_flag = 0;
+
+}  // namespace
+
+void catch_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop_flag = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool stop_requested() {
+  return stop_flag != 0;
+}
+
+}  // namespace striker::linux_port
