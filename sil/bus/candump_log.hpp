@@ -1,0 +1,16 @@
+// The bus as a candump log (the format of candump -L and of canplayer, python-can and SavvyCAN):
+//   (0000000012.345000) vcan0 050#1122334455667788
+// Stamps are logical time, the interface column is always vcan0: same seed, same bytes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "can/frame.hpp"
+#include "report/atomic_file.hpp"
+
+namespace striker::sil {
+
+void write_candump(AtomicFile& log, std::uint32_t tick_ms, std::span<const can::Frame> frames);
+
+}  // namespace striker::sil

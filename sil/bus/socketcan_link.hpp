@@ -1,0 +1,52 @@
+// The controller behind SocketCAN, in lockstep or on its own clock.
+//
+// Lockstep: SYNC(0) is repeated until it is answered. A tick without an answer within the answer timeout is
+// told on stderr; from then on the simulator runs on unanswered, a tick a millisecond of wall clock. When the
+// controller is heard again, the simulator waits until the bus is silent, so that no late answer can be taken
+// for a new one, and is back in lockstep.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "bus/controller_link.hpp"
+#include "ports/linux/can_socket.hpp"
+
+namespace striker::sil {
+
+struct SocketCanOptions {
+  std::chrono::milliseconds answer_timeout{1000};
+  std::chrono::milliseconds start_timeout{10000};
+};
+
+class LockstepLink final : public ControllerLink {
+ public:
+  LockstepLink(const std::string& interface, const SocketCanOptions& options);
+  // Throws std::runtime_error if tick 0 stays unanswered for the start timeout, or the interface goes away.
+  void exchange(std::uint32_t tick, std::span<const can::Frame> sent,
+                std::vector<can::Frame>& answer) override;
+
+  [[nodiscard]] std::uint64_t unanswered_ticks() const { return unanswered_; }
+
+ private:
+  bool await_answer(std::uint32_t tick, std::chrono::microseconds timeout, std::vector<can::Frame>& answer);
+  void start(std::span<const can::Frame> sent, std::vector<can::Frame>& answer);
+  void listen_for_return(std::uint32_t tick);
+
+  linux_port::CanSocket socket_;
+  SocketCanOptions options_;
+  bool answered_ = true;
+  std::uint64_t unanswered_ = 0;
+};
+
+class FreeRunningLink final : public ControllerLink {
+ public:
+  explicit FreeRunningLink(const std::string& interface);
+  void exchange(std::uint32_t tick, std::span<const can::Frame> sent,
+                std::vector<can::Frame>& answer) override;
+
+ private:
+  linux_port::CanSocket socket_;
+};
+
+}  // namespace striker::sil
