@@ -44,7 +44,8 @@ bool cause_lasts(Fault fault, const Conditions& conditions) {
 Supervisor supervise(const Supervisor& now, const Conditions& conditions) {
   const State tested = conditions.self_test == SelfTest::passed ? State::standby : State::self_test;
   if (now.state == State::fault) {
-    const bool cleared = conditions.clear && !cause_lasts(now.fault, conditions);
+    const bool cleared = conditions.clear && !cause_lasts(now.fault, conditions) &&
+                         cause_of_fault(State::standby, conditions) == Fault::none;
     return cleared ? Supervisor{tested, Fault::none} : now;
   }
   const Fault cause = cause_of_fault(now.state, conditions);

@@ -1,10 +1,10 @@
 // The supervisor: one state machine over five states, as a pure function of what this tick brought.
 //
-//   boot -> self_test -> standby <-> active        any -> fault -> (clear) -> standby, or
-//   self_test where that had not passed yet
+//   boot -> self_test -> standby <-> active
+//   any -> fault -> (clear) -> standby, or self_test where that had not passed yet
 //
-// Faults latch, and the first one is kept. Clearing is an edge, and is refused while the cause lasts. Only
-// `active` may drive the wheels.
+// Faults latch, and the first one is kept. Clearing is an edge, and is refused while the cause, or another that
+// would latch at once, lasts. Only `active` may drive the wheels.
 #pragma once
 
 #include <cstdint>

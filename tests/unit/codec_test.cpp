@@ -1,0 +1,145 @@
+// The message table's packing and receive checks, for every message, by property.
+#include "can/codec.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace striker::can {
+namespace {
+
+template <class Message>
+Message draw(std::mt19937& random) {
+  Message message;
+  for (const auto& signal : layout<Message>.signals) {
+    std::uniform_int_distribution<std::int32_t> value(signal.minimum, signal.maximum);
+    message.*signal.field = value(random);
+  }
+  return message;
+}
+
+template <class Message>
+void expect_equal(const Message& a, const Message& b) {
+  for (const auto& signal : layout<Message>.signals) {
+    EXPECT_EQ(a.*signal.field, b.*signal.field) << signal.name;
+  }
+}
+
+template <class Message>
+bool is_protected() {
+  return layout<Message>.info.data_id != unprotected;
+}
+
+// Calls check.operator()<Message>() for every message of the table.
+template <class Check>
+void for_each_message(Check check) {
+  [&]<class... Message>(const std::tuple<Message...>*) {
+    (check.template operator()<Message>(), ...);
+  }(static_cast<const Messages*>(nullptr));
+}
+
+TEST(Codec, UnpackGivesBackWhatWasPacked) {
+  std::mt19937 random(1);
+  for_each_message([&]<class Message>() {
+    for (int i = 0; i < 200; ++i) {
+      const auto sent = draw<Message>(random);
+      Message received;
+      ASSERT_EQ(unpack(pack(sent), received), Verdict::accepted);
+      expect_equal(sent, received);
+    }
+  });
+}
+
+TEST(Codec, ValuesOutsideARangeAreSentAsItsNearestEnd) {
+  WheelCommand command{.left_torque_mNm = 99999, .right_torque_mNm = -99999};
+  WheelCommand received;
+  ASSERT_EQ(unpack(pack(command), received), Verdict::accepted);
+  EXPECT_EQ(received.left_torque_mNm, 2000);
+  EXPECT_EQ(received.right_torque_mNm, -2000);
+}
+
+// Profile 2's promise at these lengths: every error of one, two or three bits is found.
+TEST(Codec, EveryErrorOfUpToThreeBitsIsFound) {
+  std::mt19937 random(2);
+  for_each_message([&]<class Message>() {
+    if constexpr (layout<Message>.info.data_id != unprotected) {
+      SendCounter counter;
+      const Frame good = send(draw<Message>(random), counter);
+      const unsigned bits = 8U * good.length;
+      const auto refused = [&](std::uint64_t errors) {
+        Frame bad = good;
+        for (unsigned byte = 0; byte < bad.length; ++byte) {
+          bad.data[byte] = static_cast<std::uint8_t>(bad.data[byte] ^ ((errors >> (8 * byte)) & 0xFFU));
+        }
+        ReceiveCounter memory;
+        Message message;
+        return receive(bad, memory, message) == Verdict::wrong_crc && !memory.seen;
+      };
+      for (unsigned a = 0; a < bits; ++a) {
+        for (unsigned b = a; b < bits; ++b) {
+          for (unsigned c = b; c < bits; ++c) {
+            const std::uint64_t errors = (1ULL << a) | (1ULL << b) | (1ULL << c);
+            ASSERT_TRUE(refused(errors))
+                << layout<Message>.info.name << " bits " << a << " " << b << " " << c;
+          }
+        }
+      }
+    }
+  });
+}
+
+TEST(Codec, AMessageOfAnotherKindIsRefusedByItsDataId) {
+  SendCounter counter;
+  Frame pose = send(VisionPose{}, counter);
+  pose.id = layout<WheelCommand>.info.id;
+  ReceiveCounter memory;
+  WheelCommand command;
+  EXPECT_EQ(receive(pose, memory, command), Verdict::wrong_crc);
+}
+
+TEST(Codec, AnyOtherLengthIsRefused) {
+  for_each_message([&]<class Message>() {
+    const Frame good = pack(Message{});
+    for (std::uint8_t length = 0; length <= 8; ++length) {
+      Frame frame = good;
+      frame.length = length;
+      Message message;
+      EXPECT_EQ(unpack(frame, message) == Verdict::wrong_length, length != good.length);
+    }
+  });
+}
+
+TEST(Codec, CounterAcceptsOneToSevenStepsAndResumesAfterAJump) {
+  for (unsigned step = 0; step < 16; ++step) {
+    SendCounter sender;
+    ReceiveCounter memory;
+    Sync sync;
+    ASSERT_EQ(receive(send(Sync{.tick = 1}, sender), memory, sync), Verdict::accepted);
+    sender.next = static_cast<std::uint8_t>(step % 16);
+    const Verdict verdict = receive(send(Sync{.tick = 2}, sender), memory, sync);
+    const bool follows = step >= 1 && step <= 7;
+    EXPECT_EQ(verdict, follows ? Verdict::accepted : Verdict::wrong_counter) << step;
+    EXPECT_EQ(sync.tick, follows ? 2 : 1);
+    EXPECT_EQ(receive(send(Sync{.tick = 3}, sender), memory, sync), Verdict::accepted);
+  }
+}
+
+TEST(Codec, AMessageWithOneSignalOutOfRangeIsIgnoredWhole) {
+  SendCounter counter;
+  Frame frame = send(ModeCommand{.mode = 0}, counter);
+  frame.data[1] = static_cast<std::uint8_t>(frame.data[1] | 0xF0U);
+  protect(frame, layout<ModeCommand>.info.data_id, 1);
+  ReceiveCounter memory;
+  ModeCommand command{.mode = 1};
+  EXPECT_EQ(receive(frame, memory, command), Verdict::out_of_range);
+  EXPECT_EQ(command.mode, 1);
+}
+
+TEST(Codec, AllThatCanMoveTheRobotIsProtected) {
+  EXPECT_TRUE(is_protected<EmergencyStop>() && is_protected<Sync>() && is_protected<ModeCommand>() &&
+              is_protected<WheelCommand>() && is_protected<WheelState>() && is_protected<VisionPose>() &&
+              is_protected<VisionBall>() && is_protected<Status>() && is_protected<FaultReport>());
+}
+
+}  // namespace
+}  // namespace striker::can

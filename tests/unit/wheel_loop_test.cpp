@@ -1,0 +1,65 @@
+// The wheel loop on the plant it was tuned for: limits, no wind-up, no steady error.
+#include "core/wheel_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace striker::core {
+namespace {
+
+constexpr double acceleration_mm_s2_per_mNm = 27.8;
+
+// Runs the loop for a while on a forward robot with a 1 ms current-loop lag; returns the final speed.
+struct Rig {
+  WheelLoop loop;
+  double speed_mm_s = 0.0;
+  double torque_mNm = 0.0;
+  double greatest_mm_s = 0.0;
+
+  void run(std::int32_t set_point_mm_s, int ticks, double drag_mNm = 0.0) {
+    for (int tick = 0; tick < ticks; ++tick) {
+      const std::int32_t wanted =
+          loop.step(set_point_mm_s, static_cast<std::int32_t>(std::lround(speed_mm_s)));
+      torque_mNm += 0.632 * (wanted - torque_mNm);
+      speed_mm_s += acceleration_mm_s2_per_mNm * (torque_mNm - drag_mNm) * 0.001;
+      greatest_mm_s = std::max(greatest_mm_s, speed_mm_s);
+    }
+  }
+};
+
+TEST(WheelLoop, ReachesTheSetPointWithoutOvershootBeyondTwoPercent) {
+  Rig rig;
+  rig.run(2550, 600);
+  EXPECT_NEAR(rig.speed_mm_s, 2550.0, 5.0);
+  EXPECT_LE(rig.greatest_mm_s, 2550.0 * 1.02);
+}
+
+TEST(WheelLoop, NeverExceedsTheTorqueLimit) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::int32_t> speed(-8000, 8000);
+  WheelLoop loop;
+  for (int i = 0; i < 200'000; ++i) {
+    ASSERT_LE(std::abs(loop.step(speed(random), speed(random))), torque_limit_mNm);
+  }
+}
+
+TEST(WheelLoop, RemovesASteadyLoad) {
+  Rig rig;
+  rig.run(1000, 2000, 60.0);
+  EXPECT_NEAR(rig.speed_mm_s, 1000.0, 3.0);
+}
+
+// Blocked at full torque for ten seconds, then told to stop: the torque must turn round at once.
+TEST(WheelLoop, DoesNotWindUp) {
+  WheelLoop loop;
+  for (int tick = 0; tick < 10'000; ++tick) {
+    EXPECT_EQ(loop.step(2550, 0), torque_limit_mNm);
+  }
+  EXPECT_LE(loop.step(0, 500), -torque_limit_mNm + 1);
+}
+
+}  // namespace
+}  // namespace striker::core
