@@ -65,7 +65,6 @@ void Controller::step(const Inputs& inputs, Outputs& outputs) {
   }
   const Requests requests = inbox_.take(inputs.frames, tick_, estimator_);
   if (requests.disarm) {
-    estimator_.reset();
     vision_ = {};
   }
   const bool new_pair = estimator_.end_tick(tick_);

@@ -39,12 +39,15 @@ bool Inbox::accept(const can::Frame& frame, std::uint32_t tick, Receiver& receiv
   return true;
 }
 
-void Inbox::take_mode(const can::Frame& frame, std::uint32_t tick, Requests& requests) {
+void Inbox::take_mode(const can::Frame& frame, std::uint32_t tick, Estimator& estimator, Requests& requests) {
   can::ModeCommand command;
   if (!accept(frame, tick, mode_, command)) {
     return;
   }
   const auto mode = static_cast<can::Mode>(command.mode);
+  if (mode == can::Mode::disarm) {
+    estimator.reset();
+  }
   requests.arm = requests.arm || mode == can::Mode::arm;
   requests.disarm = requests.disarm || mode == can::Mode::disarm;
   requests.clear = requests.clear || mode == can::Mode::clear;
@@ -68,7 +71,7 @@ Requests Inbox::take(std::span<const can::Frame> frames, std::uint32_t tick, Est
         estimator.take_ball(ball);
       }
     } else if (can::is<can::ModeCommand>(frame)) {
-      take_mode(frame, tick, requests);
+      take_mode(frame, tick, estimator, requests);
     } else if (can::is<can::EmergencyStop>(frame)) {
       can::EmergencyStop stop;
       accept(frame, tick, stop_, stop);

@@ -42,8 +42,8 @@ struct Requests {
 
 class Inbox {
  public:
-  // Checks this tick's frames and hands vision and wheel states to the estimator. Frames with other
-  // identifiers are none of the controller's business.
+  // Checks this tick's frames, in their order, and hands vision and wheel states to the estimator; a disarm
+  // resets it, so that only pictures after the disarm count. Other identifiers are none of its business.
   Requests take(std::span<const can::Frame> frames, std::uint32_t tick, Estimator& estimator);
 
   [[nodiscard]] bool emergency_stop(std::uint32_t tick) const {
@@ -64,7 +64,7 @@ class Inbox {
 
   template <class Message>
   bool accept(const can::Frame& frame, std::uint32_t tick, Receiver& receiver, Message& message);
-  void take_mode(const can::Frame& frame, std::uint32_t tick, Requests& requests);
+  void take_mode(const can::Frame& frame, std::uint32_t tick, Estimator& estimator, Requests& requests);
   void count(can::Verdict verdict);
 
   Receiver stop_;

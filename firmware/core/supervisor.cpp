@@ -15,10 +15,12 @@ Fault cause_of_fault(State state, const Conditions& conditions) {
   if (conditions.emergency_stop) {
     return Fault::emergency_stop;
   }
-  if (state == State::active && !conditions.vision_fresh) {
+  // A disarm takes the torque anyway, and makes the vision stale by itself.
+  const bool needs_inputs = state == State::active && !conditions.disarm;
+  if (needs_inputs && !conditions.vision_fresh) {
     return Fault::vision_lost;
   }
-  if (state == State::active && !conditions.wheels_fresh) {
+  if (needs_inputs && !conditions.wheels_fresh) {
     return Fault::wheel_state_lost;
   }
   return Fault::none;

@@ -3,8 +3,8 @@
 //   boot -> self_test -> standby <-> active
 //   any -> fault -> (clear) -> standby, or self_test where that had not passed yet
 //
-// Faults latch, and the first one is kept. Clearing is an edge, and is refused while the cause, or another that
-// would latch at once, lasts. Only `active` may drive the wheels.
+// Faults latch, and the first one is kept. Clearing is an edge, and is refused while the cause, or another
+// that would latch at once, lasts. Only `active` may drive the wheels.
 #pragma once
 
 #include <cstdint>

@@ -76,19 +76,19 @@ void KickRunner::prepare_tick(std::uint32_t episode_tick, const KickStart& start
   record_.deciding = episode_tick >= first_decision_tick && episode_tick < last_tick;
   record_.contact = moving_ && episode_.outcome().contact;
 
-  if (episode_tick % picture_ticks == 0) {
-    if (moving_) {
-      send_picture(world_.robot_pose(0), world_.ball().position_m);
-    } else {
-      send_picture(start.robot, ball_before(start, (first_decision_tick - episode_tick) * tick_s).position_m);
-    }
-  }
   if (episode_tick == 0) {
     send_mode(can::Mode::disarm);
   } else if (episode_tick == clear_tick && controller_faulty_) {
     send_mode(can::Mode::clear);
   } else if (episode_tick == arm_tick) {
     send_mode(can::Mode::arm);
+  }
+  if (episode_tick % picture_ticks == 0) {
+    if (moving_) {
+      send_picture(world_.robot_pose(0), world_.ball().position_m);
+    } else {
+      send_picture(start.robot, ball_before(start, (first_decision_tick - episode_tick) * tick_s).position_m);
+    }
   }
 }
 
