@@ -56,9 +56,11 @@ class KickEpisode {
   [[nodiscard]] const KickOutcome& outcome() const { return outcome_; }
 
  private:
+  void measure_ball(Vec2 velocity_m_s);
+
   double target_heading_rad_ = 0.0;
-  double since_contact_s_ = 0.0;
   int decision_ = 0;
+  int steps_to_measurement_ = 0;
   bool contact_paid_ = false;
   KickOutcome outcome_;
 };

@@ -1,0 +1,121 @@
+#include "report/kick_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+#include "report/atomic_file.hpp"
+
+namespace striker::sil {
+namespace {
+
+nlohmann::ordered_json row_json(std::size_t episode, const KickOutcome& outcome) {
+  nlohmann::ordered_json row = {{"episode", episode},          {"contact", outcome.contact},
+                                {"contact_decision", nullptr}, {"theta_contact_rad", nullptr},
+                                {"v_contact_m_s", nullptr},    {"front_face", nullptr},
+                                {"reward", outcome.reward},    {"ball_speed_m_s", nullptr},
+                                {"ball_angle_rad", nullptr},   {"kicked", outcome.kicked}};
+  if (outcome.contact) {
+    row["contact_decision"] = outcome.contact_decision;
+    row["theta_contact_rad"] = outcome.theta_contact_rad;
+    row["v_contact_m_s"] = outcome.v_contact_m_s;
+    row["front_face"] = outcome.front_face;
+  }
+  if (outcome.ball_measured) {
+    row["ball_speed_m_s"] = outcome.ball_speed_m_s;
+    row["ball_angle_rad"] = outcome.ball_angle_rad;
+  }
+  return row;
+}
+
+double realtime_factor(const KickRun& run) {
+  return run.wall_s > 0.0 ? run.simulated_s / run.wall_s : 0.0;
+}
+
+nlohmann::ordered_json run_json(const KickRun& run) {
+  const KickSummary summary = summarise(run.episodes);
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < run.episodes.size(); ++i) {
+    rows.push_back(row_json(i, run.episodes[i]));
+  }
+  return {{"episodes", run.episodes.size()},
+          {"mean_reward", summary.mean_reward},
+          {"reward_ci95", summary.reward_ci95},
+          {"contact_rate", summary.contact_rate},
+          {"kick_rate", summary.kick_rate},
+          {"seed", run.seed},
+          {"plant", run.plant},
+          {"pose", run.pose},
+          {"policy", run.policy},
+          {"simulated_s", run.simulated_s},
+          {"wall_s", run.wall_s},
+          {"realtime_factor", realtime_factor(run)},
+          {"rows", std::move(rows)}};
+}
+
+std::string cell(bool known, double value, int decimals) {
+  return known ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+std::string row_text(std::size_t episode, const KickOutcome& outcome) {
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  return fmt::format(
+      "{:>7}  {:>7}  {:>9}  {:>9}  {:>8.3f}  {:>10}  {:>10}  {:>6}\n", episode,
+      outcome.contact ? "yes" : "no", cell(outcome.contact, outcome.theta_contact_rad * degrees, 1),
+      cell(outcome.contact, outcome.v_contact_m_s, 3), outcome.reward,
+      cell(outcome.ball_measured, outcome.ball_speed_m_s, 3),
+      cell(outcome.ball_measured, outcome.ball_angle_rad * degrees, 1), outcome.kicked ? "yes" : "no");
+}
+
+}  // namespace
+
+KickSummary summarise(const std::vector<KickOutcome>& episodes) {
+  KickSummary summary;
+  if (episodes.empty()) {
+    return summary;
+  }
+  const auto count = static_cast<double>(episodes.size());
+  for (const KickOutcome& outcome : episodes) {
+    summary.mean_reward += outcome.reward / count;
+    summary.contact_rate += outcome.contact ? 1.0 / count : 0.0;
+    summary.kick_rate += outcome.kicked ? 1.0 / count : 0.0;
+  }
+  double squares = 0.0;
+  for (const KickOutcome& outcome : episodes) {
+    squares += (outcome.reward - summary.mean_reward) * (outcome.reward - summary.mean_reward);
+  }
+  if (episodes.size() > 1) {
+    summary.reward_ci95 = 1.96 * std::sqrt(squares / (count - 1.0) / count);
+  }
+  return summary;
+}
+
+void write_json(const KickRun& run, const std::filesystem::path& file) {
+  AtomicFile out(file);
+  out.write(run_json(run).dump(1) + '\n');
+  out.finish();
+}
+
+std::string format_table(const KickRun& run, bool rows) {
+  std::string text;
+  if (rows) {
+    text += fmt::format("{:>7}  {:>7}  {:>9}  {:>9}  {:>8}  {:>10}  {:>10}  {:>6}\n", "episode", "contact",
+                        "theta_deg", "v_m_s", "reward", "ball_m_s", "ball_deg", "kicked");
+    for (std::size_t i = 0; i < run.episodes.size(); ++i) {
+      text += row_text(i, run.episodes[i]);
+    }
+  }
+  const KickSummary summary = summarise(run.episodes);
+  text += fmt::format(
+      "{} episodes: mean reward {:.3f} +- {:.3f}, contact rate {:.3f}, kick rate {:.3f}, {:.1f} x real "
+      "time\n",
+      run.episodes.size(), summary.mean_reward, summary.reward_ci95, summary.contact_rate, summary.kick_rate,
+      realtime_factor(run));
+  return text;
+}
+
+}  // namespace striker::sil

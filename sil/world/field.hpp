@@ -1,0 +1,22 @@
+// The floor and the walls as collision shapes that never move.
+#pragma once
+
+#include <vector>
+
+#include "world/ode_handles.hpp"
+
+namespace striker::sil {
+
+struct Field {
+  GeomHandle floor;  // an unbounded plane
+  std::vector<GeomHandle> walls;
+  GeomHandle robot_ceiling;  // both null on an open floor
+  GeomHandle ball_ceiling;
+};
+
+[[nodiscard]] Field make_field(bool walls);
+
+// May a body with this bounding radius, its centre here, touch a wall? Cheap, and never wrongly false.
+[[nodiscard]] bool near_wall(double x_m, double y_m, double radius_m);
+
+}  // namespace striker::sil

@@ -1,0 +1,161 @@
+#include "world/kick_task.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "world/field_specs.hpp"
+#include "world/random.hpp"
+
+namespace striker::sil {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+constexpr double ball_distance_m = 2.0;
+constexpr double aim_radius_m = 0.5;  // around the robot's centre
+constexpr double slowest_ball_m_s = 1.0;
+constexpr double fastest_ball_m_s = 3.0;
+
+// Paper, section IV.A.
+constexpr double waiting_reward = -0.1;
+constexpr double angle_reward = 3.0;
+constexpr double speed_reward_s_m = 3.92;
+
+constexpr double measured_after_s = 0.100;
+constexpr double kick_angle_rad = 15.0 * pi / 180.0;
+constexpr double kick_speed_m_s = 1.0;
+
+// Streams of an episode's draws: one each for the ball and the pose.
+constexpr std::uint64_t ball_stream = 1;
+constexpr std::uint64_t pose_stream = 2;
+
+// -ln 0.8: the world's damping as a rate.
+constexpr double damping_per_s = 0.22314355131420976;
+
+Vec2 along(double direction_rad) {
+  return {std::cos(direction_rad), std::sin(direction_rad)};
+}
+Vec2 operator+(Vec2 a, Vec2 b) {
+  return {a.x + b.x, a.y + b.y};
+}
+Vec2 operator-(Vec2 a, Vec2 b) {
+  return {a.x - b.x, a.y - b.y};
+}
+Vec2 operator*(double factor, Vec2 a) {
+  return {factor * a.x, factor * a.y};
+}
+double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+double angle_rad(Vec2 a) {
+  return std::atan2(a.y, a.x);
+}
+double wrapped_rad(double angle) {
+  return std::remainder(angle, 2.0 * pi);
+}
+
+Vec2 rotated(Vec2 a, double angle) {
+  const Vec2 axis = along(angle);
+  return {axis.x * a.x - axis.y * a.y, axis.y * a.x + axis.x * a.y};
+}
+
+Pose draw_pose(std::uint64_t seed, std::uint64_t episode) {
+  Random random(seed, episode, pose_stream);
+  Pose pose;
+  pose.x_m = random.uniform(-field_half_length_m, field_half_length_m);
+  pose.y_m = random.uniform(-field_half_width_m, field_half_width_m);
+  pose.heading_rad = random.uniform(-pi, pi);
+  return pose;
+}
+
+// In the robot's frame.
+BallState draw_ball(std::uint64_t seed, std::uint64_t episode) {
+  Random random(seed, episode, ball_stream);
+  const Vec2 from = ball_distance_m * along(random.uniform(-pi, pi));
+  const double speed_m_s = random.uniform(slowest_ball_m_s, fastest_ball_m_s);
+  const double aim_distance_m = aim_radius_m * std::sqrt(random.uniform());
+  const Vec2 aim = aim_distance_m * along(random.uniform(-pi, pi));
+  return {.position_m = from, .velocity_m_s = speed_m_s * along(angle_rad(aim - from))};
+}
+
+}  // namespace
+
+KickStart draw_kick(std::uint64_t seed, std::uint64_t episode, PoseMode pose) {
+  KickStart start;
+  if (pose == PoseMode::anywhere) {
+    start.robot = draw_pose(seed, episode);
+  }
+  const BallState ball = draw_ball(seed, episode);
+  const Vec2 centre{start.robot.x_m, start.robot.y_m};
+  start.ball.position_m = centre + rotated(ball.position_m, start.robot.heading_rad);
+  start.ball.velocity_m_s = rotated(ball.velocity_m_s, start.robot.heading_rad);
+  return start;
+}
+
+BallState ball_before(const KickStart& start, double ahead_s) {
+  const double faster = std::exp(damping_per_s * ahead_s);
+  const double way_s = (faster - 1.0) / damping_per_s;
+  return {.position_m = start.ball.position_m - way_s * start.ball.velocity_m_s,
+          .velocity_m_s = faster * start.ball.velocity_m_s};
+}
+
+WorldConfig kick_world(double step_s) {
+  return {.robots = {Role::forward}, .walls = false, .step_s = step_s};
+}
+
+void KickEpisode::begin(World& world, const KickStart& start) {
+  world.place_robot(0, start.robot);
+  world.place_ball(start.ball);
+  *this = KickEpisode{};
+  target_heading_rad_ = start.robot.heading_rad;
+}
+
+void KickEpisode::step(World& world) {
+  const Pose robot = world.robot_pose(0);
+  const Vec2 robot_velocity = world.robot_velocity_m_s(0);
+  const Vec2 ball = world.ball().position_m;
+  world.step();
+  if (!outcome_.contact) {
+    const auto normal = world.ball_contact(0);
+    if (normal && decision_ < kick_decisions) {
+      const Vec2 heading = along(robot.heading_rad);
+      outcome_.contact = true;
+      outcome_.contact_decision = decision_;
+      outcome_.theta_contact_rad =
+          wrapped_rad(angle_rad(ball - Vec2{robot.x_m, robot.y_m}) - target_heading_rad_);
+      outcome_.v_contact_m_s = dot(robot_velocity, heading);
+      // The faces' normals are 90 degrees apart, and those at an edge lie between: within 45 degrees of the
+      // heading the front face is the nearest.
+      outcome_.front_face = dot(*normal, heading) > std::cos(0.25 * pi);
+      steps_to_measurement_ = static_cast<int>(std::lround(measured_after_s / world.step_s()));
+    }
+  } else if (!outcome_.ball_measured && --steps_to_measurement_ == 0) {
+    measure_ball(world.ball().velocity_m_s);
+  }
+}
+
+void KickEpisode::measure_ball(Vec2 velocity_m_s) {
+  outcome_.ball_measured = true;
+  outcome_.ball_speed_m_s = std::hypot(velocity_m_s.x, velocity_m_s.y);
+  outcome_.ball_angle_rad = wrapped_rad(angle_rad(velocity_m_s) - target_heading_rad_);
+  outcome_.kicked = outcome_.front_face && outcome_.ball_speed_m_s > kick_speed_m_s &&
+                    std::abs(outcome_.ball_angle_rad) <= kick_angle_rad;
+}
+
+double KickEpisode::end_decision() {
+  if (decision_ >= kick_decisions) {
+    return 0.0;
+  }
+  ++decision_;
+  double reward = 0.0;
+  if (!outcome_.contact) {
+    reward = waiting_reward;
+  } else if (!contact_paid_) {
+    contact_paid_ = true;
+    reward = angle_reward * std::cos(outcome_.theta_contact_rad) + speed_reward_s_m * outcome_.v_contact_m_s;
+  }
+  outcome_.reward += reward;
+  return reward;
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,140 @@
+#include "world/robot.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+#include "world/materials.hpp"
+#include "world/robot_specs.hpp"
+
+namespace striker::sil {
+namespace {
+
+constexpr std::size_t index(Wheel wheel) {
+  return static_cast<std::size_t>(wheel);
+}
+// Wheels along the body's y axis, skids along its x axis.
+constexpr std::array<double, 2> wheel_sides = {0.5 * axle_length_m, -0.5 * axle_length_m};
+constexpr std::array<double, 2> skid_places = {skid_offset_m, -skid_offset_m};
+
+// Standing, the robot sinks in by its weight over the springs of its contacts, two a wheel and one a skid.
+// Placed there, it neither falls nor rises.
+double rest_depth_m(Role role) {
+  constexpr double gravity_m_s2 = 9.81;
+  constexpr double contacts = 6.0;
+  const RobotSpec spec = robot_spec(role);
+  const double weight_N = gravity_m_s2 * (spec.body_mass_kg + 2.0 * spec.wheel_mass_kg);
+  return weight_N / (contacts * spring_N_m(world_softness));
+}
+
+void add_body(Robot& robot, dWorldID world) {
+  constexpr double height_m = robot_top_m - robot_bottom_m;
+  robot.body = dBodyCreate(world);
+  // A box's inertia: AI Soccer names the mass and its centre only.
+  dMass mass;
+  dMassSetBoxTotal(&mass, robot_spec(robot.role).body_mass_kg, robot_side_m, robot_side_m, height_m);
+  dBodySetMass(robot.body, &mass);
+  dBodySetPosition(robot.body, 0.0, 0.0, centre_of_mass_height_m);
+  // It turns by up to 0.36 rad in a step: too much for ODE's default, linear update of the orientation.
+  dBodySetFiniteRotationMode(robot.body, 1);
+
+  robot.box.reset(dCreateBox(nullptr, robot_side_m, robot_side_m, height_m));
+  dGeomSetBody(robot.box.get(), robot.body);
+  dGeomSetOffsetPosition(robot.box.get(), 0.0, 0.0,
+                         0.5 * (robot_bottom_m + robot_top_m) - centre_of_mass_height_m);
+  for (std::size_t i = 0; i < robot.skids.size(); ++i) {
+    robot.skids[i].reset(dCreateSphere(nullptr, skid_radius_m));
+    dGeomSetBody(robot.skids[i].get(), robot.body);
+    dGeomSetOffsetPosition(robot.skids[i].get(), skid_places[i], 0.0,
+                           skid_radius_m - centre_of_mass_height_m);
+  }
+}
+
+void add_wheel(Robot& robot, dWorldID world, std::size_t i) {
+  constexpr int along_y = 2;
+  dBodyID wheel = dBodyCreate(world);
+  dMass mass;
+  dMassSetCylinderTotal(&mass, robot_spec(robot.role).wheel_mass_kg, along_y, wheel_radius_m,
+                        wheel_thickness_m);
+  dBodySetMass(wheel, &mass);
+  dBodySetPosition(wheel, 0.0, wheel_sides[i], wheel_radius_m);
+
+  robot.tyres[i].reset(dCreateCylinder(nullptr, wheel_radius_m, wheel_thickness_m));
+  dGeomSetBody(robot.tyres[i].get(), wheel);
+  dMatrix3 on_edge;
+  dRFromAxisAndAngle(on_edge, 1.0, 0.0, 0.0, 0.5 * M_PI);
+  dGeomSetOffsetRotation(robot.tyres[i].get(), on_edge);
+
+  dJointID hinge = dJointCreateHinge(world, nullptr);
+  dJointAttach(hinge, wheel, robot.body);
+  dJointSetHingeAnchor(hinge, 0.0, wheel_sides[i], wheel_radius_m);
+  dJointSetHingeAxis(hinge, 0.0, 1.0, 0.0);
+  robot.wheels[i] = wheel;
+  robot.hinges[i] = hinge;
+}
+
+void place_body(dBodyID body, const Pose& pose, double height_m) {
+  const dQuaternion turned = {std::cos(0.5 * pose.heading_rad), 0.0, 0.0, std::sin(0.5 * pose.heading_rad)};
+  dBodySetPosition(body, pose.x_m, pose.y_m, height_m);
+  dBodySetQuaternion(body, turned);
+  dBodySetLinearVel(body, 0.0, 0.0, 0.0);
+  dBodySetAngularVel(body, 0.0, 0.0, 0.0);
+  dBodySetForce(body, 0.0, 0.0, 0.0);
+  dBodySetTorque(body, 0.0, 0.0, 0.0);
+}
+
+}  // namespace
+
+Robot make_robot(dWorldID world, Role role) {
+  Robot robot;
+  robot.role = role;
+  add_body(robot, world);
+  for (std::size_t i = 0; i < robot.wheels.size(); ++i) {
+    add_wheel(robot, world, i);
+  }
+  return robot;
+}
+
+void place(Robot& robot, const Pose& pose) {
+  const double sink_m = rest_depth_m(robot.role);
+  place_body(robot.body, pose, centre_of_mass_height_m - sink_m);
+  for (std::size_t i = 0; i < robot.wheels.size(); ++i) {
+    Pose wheel = pose;
+    wheel.x_m -= std::sin(pose.heading_rad) * wheel_sides[i];
+    wheel.y_m += std::cos(pose.heading_rad) * wheel_sides[i];
+    place_body(robot.wheels[i], wheel, wheel_radius_m - sink_m);
+  }
+  set_torque(robot, Wheel::left, 0.0);
+  set_torque(robot, Wheel::right, 0.0);
+  robot.ball_contact.reset();
+}
+
+void set_servo(Robot& robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm) {
+  dJointID hinge = robot.hinges[index(wheel)];
+  dJointSetHingeParam(hinge, dParamVel, rim_speed_m_s / wheel_radius_m);
+  dJointSetHingeParam(hinge, dParamFMax, torque_ceiling_Nm);
+  robot.torques_Nm[index(wheel)] = 0.0;
+}
+
+void set_torque(Robot& robot, Wheel wheel, double torque_Nm) {
+  set_servo(robot, wheel, 0.0, 0.0);
+  robot.torques_Nm[index(wheel)] = torque_Nm;
+}
+
+void apply_torques(const Robot& robot) {
+  for (std::size_t i = 0; i < robot.hinges.size(); ++i) {
+    if (robot.torques_Nm[i] != 0.0) {
+      dJointAddHingeTorque(robot.hinges[i], robot.torques_Nm[i]);
+    }
+  }
+}
+
+double rim_speed_m_s(const Robot& robot, Wheel wheel) {
+  return wheel_radius_m * dJointGetHingeAngleRate(robot.hinges[index(wheel)]);
+}
+
+double heading_rad(const Robot& robot) {
+  const dReal* rotation = dBodyGetRotation(robot.body);
+  return std::atan2(rotation[4], rotation[0]);
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,39 @@
+// One robot as ODE sees it: a box on two hinged cylinder wheels and two frictionless skids.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "world/ode_handles.hpp"
+#include "world/world.hpp"
+
+namespace striker::sil {
+
+struct Robot {
+  Role role = Role::forward;
+  dBodyID body = nullptr;
+  std::array<dBodyID, 2> wheels{};  // in the order of Wheel
+  std::array<dJointID, 2> hinges{};
+  GeomHandle box;
+  std::array<GeomHandle, 2> skids;
+  std::array<GeomHandle, 2> tyres;
+  std::array<double, 2> torques_Nm{};
+  std::optional<Vec2> ball_contact;  // in the last step
+};
+
+// Reaches every point of the robot from its centre of mass, seen from above, however it lies.
+inline constexpr double robot_reach_m = 0.15;
+
+[[nodiscard]] Robot make_robot(dWorldID world, Role role);
+
+void place(Robot& robot, const Pose& pose);
+
+void set_servo(Robot& robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm);
+void set_torque(Robot& robot, Wheel wheel, double torque_Nm);
+// ODE forgets torques after each step: to be called before it.
+void apply_torques(const Robot& robot);
+
+[[nodiscard]] double rim_speed_m_s(const Robot& robot, Wheel wheel);
+[[nodiscard]] double heading_rad(const Robot& robot);
+
+}  // namespace striker::sil

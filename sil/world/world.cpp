@@ -1,0 +1,268 @@
+#include "world/world.hpp"
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "world/field.hpp"
+#include "world/field_specs.hpp"
+#include "world/materials.hpp"
+#include "world/ode_handles.hpp"
+#include "world/robot.hpp"
+
+namespace striker::sil {
+namespace {
+
+constexpr double gravity_m_s2 = 9.81;
+constexpr double kept_after_1_s = 0.8;  // of every body's linear and angular velocity
+constexpr std::size_t max_robots = 10;
+constexpr int max_contacts = 10;  // kept of a pair, as Webots does
+// Each contact of a step is softer than the one before by this share. Left and right of a robot are else
+// exactly alike, and on such ties ODE's solver gives up ("LCP internal error, s <= 0") and leaves the forces
+// incomplete, in about 4 of 100,000 steps.
+constexpr double tie_break = 1e-6;
+
+// Once in a process, and never closed: worlds come and go at any time.
+void init_ode() {
+  static const bool ready = dInitODE2(0) != 0;
+  if (!ready || dAllocateODEDataForThread(dAllocateMaskAll) == 0) {
+    throw std::runtime_error("ODE cannot be initialised: out of memory");
+  }
+}
+
+WorldHandle make_ode_world(double step_s) {
+  init_ode();
+  WorldHandle world(dWorldCreate());
+  const Softness softness = soften(world_softness, step_s);
+  dWorldSetERP(world.get(), softness.erp);
+  dWorldSetCFM(world.get(), softness.cfm);
+  dWorldSetGravity(world.get(), 0.0, 0.0, -gravity_m_s2);
+  dWorldSetDamping(world.get(), 1.0 - std::pow(kept_after_1_s, step_s),
+                   1.0 - std::pow(kept_after_1_s, step_s));
+  dWorldSetLinearDampingThreshold(world.get(), 0.0);
+  dWorldSetAngularDampingThreshold(world.get(), 0.0);
+  return world;
+}
+
+double distance_squared(dBodyID a, dBodyID b) {
+  const dReal* p = dBodyGetPosition(a);
+  const dReal* q = dBodyGetPosition(b);
+  return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]);
+}
+
+// Horizontal, from the robot to the ball. A ball on the robot's roof has no horizontal normal: then the line
+// of centres.
+Vec2 contact_direction(const dContactGeom& contact, dBodyID robot, dBodyID ball) {
+  Vec2 direction{-contact.normal[0], -contact.normal[1]};
+  if (std::hypot(direction.x, direction.y) < 1e-6) {
+    const dReal* from = dBodyGetPosition(robot);
+    const dReal* to = dBodyGetPosition(ball);
+    direction = {to[0] - from[0], to[1] - from[1]};
+  }
+  const double length = std::hypot(direction.x, direction.y);
+  return length > 0.0 ? Vec2{direction.x / length, direction.y / length} : Vec2{1.0, 0.0};
+}
+
+}  // namespace
+
+// The geometry is tested pair by pair in a fixed order, not through an ODE space, whose order depends on
+// history.
+struct World::Impl {
+  explicit Impl(const WorldConfig& config);
+
+  std::span<const dContactGeom> collide(dGeomID a, dGeomID b, Pair pair);
+  void collide_robot(Robot& robot);
+  void collide_ball();
+  void collide_ball_with(Robot& robot);
+  void step();
+
+  double step_s;
+  bool has_walls;
+  WorldHandle world;
+  JointGroupHandle contact_joints;
+  Field field;
+  std::vector<Robot> robots;
+  dBodyID ball;
+  GeomHandle ball_geom;
+  std::array<dSurfaceParameters, pair_count> surfaces{};
+  std::array<dContactGeom, max_contacts> found{};
+  int contact_count = 0;  // in this step
+};
+
+World::Impl::Impl(const WorldConfig& config)
+    : step_s(config.step_s),
+      has_walls(config.walls),
+      world(make_ode_world(config.step_s)),
+      contact_joints(dJointGroupCreate(0)),
+      field(make_field(config.walls)),
+      ball(dBodyCreate(world.get())),
+      ball_geom(dCreateSphere(nullptr, ball_radius_m)) {
+  dMass mass;
+  dMassSetSphereTotal(&mass, ball_mass_kg, ball_radius_m);
+  dBodySetMass(ball, &mass);
+  dGeomSetBody(ball_geom.get(), ball);
+  for (const Role role : config.robots) {
+    robots.push_back(make_robot(world.get(), role));
+  }
+  for (std::size_t i = 0; i < pair_count; ++i) {
+    surfaces.at(i) = surface(static_cast<Pair>(i), step_s);
+  }
+}
+
+std::span<const dContactGeom> World::Impl::collide(dGeomID a, dGeomID b, Pair pair) {
+  const int count = dCollide(a, b, max_contacts, found.data(), sizeof(dContactGeom));
+  dContact contact{};
+  contact.surface = surfaces[static_cast<std::size_t>(pair)];
+  const double soft_cfm = contact.surface.soft_cfm;
+  for (int i = 0; i < count; ++i) {
+    contact.geom = found[static_cast<std::size_t>(i)];
+    contact.surface.soft_cfm = soft_cfm * (1.0 + tie_break * ++contact_count);
+    dJointID joint = dJointCreateContact(world.get(), contact_joints.get(), &contact);
+    dJointAttach(joint, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
+  }
+  return {found.data(), static_cast<std::size_t>(count)};
+}
+
+void World::Impl::collide_robot(Robot& robot) {
+  for (const GeomHandle& tyre : robot.tyres) {
+    collide(tyre.get(), field.floor.get(), Pair::floor_wheel);
+  }
+  for (const GeomHandle& skid : robot.skids) {
+    collide(skid.get(), field.floor.get(), Pair::floor_body);
+  }
+  collide(robot.box.get(), field.floor.get(), Pair::floor_body);
+  const dReal* position = dBodyGetPosition(robot.body);
+  if (has_walls && near_wall(position[0], position[1], robot_reach_m)) {
+    for (const GeomHandle& wall : field.walls) {
+      collide(robot.box.get(), wall.get(), Pair::wall_body);
+    }
+  }
+  if (has_walls && position[2] + robot_reach_m > robot_ceiling_m) {
+    collide(robot.box.get(), field.robot_ceiling.get(), Pair::wall_body);
+  }
+}
+
+void World::Impl::collide_ball() {
+  collide(ball_geom.get(), field.floor.get(), Pair::floor_ball);
+  const dReal* position = dBodyGetPosition(ball);
+  if (has_walls && near_wall(position[0], position[1], ball_radius_m)) {
+    for (const GeomHandle& wall : field.walls) {
+      collide(ball_geom.get(), wall.get(), Pair::wall_ball);
+    }
+  }
+  if (has_walls && position[2] + ball_radius_m > ball_ceiling_m) {
+    collide(ball_geom.get(), field.ball_ceiling.get(), Pair::wall_ball);
+  }
+}
+
+void World::Impl::collide_ball_with(Robot& robot) {
+  constexpr double reach_m = robot_reach_m + ball_radius_m;
+  robot.ball_contact.reset();
+  if (distance_squared(robot.body, ball) > reach_m * reach_m) {
+    return;
+  }
+  const Pair pair = robot.role == Role::goalkeeper ? Pair::goalkeeper_ball : Pair::body_ball;
+  const auto contacts = collide(robot.box.get(), ball_geom.get(), pair);
+  if (!contacts.empty()) {
+    robot.ball_contact = contact_direction(contacts.front(), robot.body, ball);
+  }
+}
+
+void World::Impl::step() {
+  contact_count = 0;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    collide_robot(robots[i]);
+    collide_ball_with(robots[i]);
+    for (std::size_t j = i + 1; j < robots.size(); ++j) {
+      if (distance_squared(robots[i].body, robots[j].body) < 4.0 * robot_reach_m * robot_reach_m) {
+        collide(robots[i].box.get(), robots[j].box.get(), Pair::body_body);
+      }
+    }
+    apply_torques(robots[i]);
+  }
+  collide_ball();
+  dWorldStep(world.get(), step_s);
+  dJointGroupEmpty(contact_joints.get());
+}
+
+World::World(const WorldConfig& config) {
+  if (config.robots.empty() || config.robots.size() > max_robots) {
+    throw std::invalid_argument("WorldConfig.robots: a world holds 1 to 10 robots");
+  }
+  if (!(config.step_s > 0.0)) {
+    throw std::invalid_argument("WorldConfig.step_s: must be greater than 0");
+  }
+  impl_ = std::make_unique<Impl>(config);
+  // Apart from each other, until the owner places them.
+  for (std::size_t i = 0; i < config.robots.size(); ++i) {
+    place_robot(i, {.x_m = -3.0, .y_m = -1.8 + 0.4 * static_cast<double>(i), .heading_rad = 0.0});
+  }
+  place_ball({});
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::place_robot(std::size_t robot, const Pose& pose) {
+  place(impl_->robots.at(robot), pose);
+}
+
+void World::place_ball(const BallState& ball) {
+  // The depth at which the floor's spring carries the ball.
+  constexpr double weight_N = gravity_m_s2 * ball_mass_kg;
+  const double height_m = ball_radius_m - weight_N / spring_N_m(world_softness);
+  const dQuaternion upright = {1.0, 0.0, 0.0, 0.0};
+  dBodyID body = impl_->ball;
+  dBodySetPosition(body, ball.position_m.x, ball.position_m.y, height_m);
+  dBodySetQuaternion(body, upright);
+  dBodySetLinearVel(body, ball.velocity_m_s.x, ball.velocity_m_s.y, 0.0);
+  dBodySetAngularVel(body, -ball.velocity_m_s.y / ball_radius_m, ball.velocity_m_s.x / ball_radius_m, 0.0);
+  dBodySetForce(body, 0.0, 0.0, 0.0);
+  dBodySetTorque(body, 0.0, 0.0, 0.0);
+}
+
+void World::servo_wheel(std::size_t robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm) {
+  set_servo(impl_->robots.at(robot), wheel, rim_speed_m_s, torque_ceiling_Nm);
+}
+
+void World::torque_wheel(std::size_t robot, Wheel wheel, double torque_Nm) {
+  set_torque(impl_->robots.at(robot), wheel, torque_Nm);
+}
+
+void World::step() {
+  impl_->step();
+}
+
+std::optional<Vec2> World::ball_contact(std::size_t robot) const {
+  return impl_->robots.at(robot).ball_contact;
+}
+
+Pose World::robot_pose(std::size_t robot) const {
+  const Robot& placed = impl_->robots.at(robot);
+  const dReal* position = dBodyGetPosition(placed.body);
+  return {.x_m = position[0], .y_m = position[1], .heading_rad = heading_rad(placed)};
+}
+
+Vec2 World::robot_velocity_m_s(std::size_t robot) const {
+  const dReal* velocity = dBodyGetLinearVel(impl_->robots.at(robot).body);
+  return {velocity[0], velocity[1]};
+}
+
+double World::rim_speed_m_s(std::size_t robot, Wheel wheel) const {
+  return sil::rim_speed_m_s(impl_->robots.at(robot), wheel);
+}
+
+BallState World::ball() const {
+  const dReal* position = dBodyGetPosition(impl_->ball);
+  const dReal* velocity = dBodyGetLinearVel(impl_->ball);
+  return {.position_m = {position[0], position[1]}, .velocity_m_s = {velocity[0], velocity[1]}};
+}
+
+double World::step_s() const {
+  return impl_->step_s;
+}
+
+}  // namespace striker::sil
