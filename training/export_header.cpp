@@ -33,7 +33,8 @@ std::string array_of(const Numbers& numbers, std::size_t indent) {
   for (std::size_t i = 0; i < std::size(numbers); ++i) {
     std::string number = fmt::format("{}{}", numbers[i], i + 1 < std::size(numbers) ? "," : "}}");
     if (column + number.size() + 3 > columns) {
-      text += "\n" + std::string(indent + 2, ' ');
+      text += '\n';
+      text.append(indent + 2, ' ');
       column = indent + 2;
     } else if (i > 0) {
       text += ' ';

@@ -1,7 +1,7 @@
 #include "integer_network.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -13,17 +13,24 @@ std::int64_t shift_rounded(std::int64_t value, int shift) {
   return (value + (std::int64_t{1} << (shift - 1))) >> shift;
 }
 
-std::int64_t scaled_input(std::int32_t raw, const InputScale& scale) {
+std::int32_t scaled_input(std::int32_t raw, const InputScale& scale) {
   const std::int64_t product = std::int64_t{raw} * scale.multiplier;
-  return std::clamp(shift_rounded(product, scale.shift), -greatest_activation, greatest_activation);
+  return static_cast<std::int32_t>(
+      std::clamp(shift_rounded(product, scale.shift), -greatest_activation, greatest_activation));
+}
+
+// ReLU and saturation.
+std::int32_t stored(std::int32_t sum, int shift) {
+  return static_cast<std::int32_t>(
+      std::clamp(shift_rounded(sum, shift), std::int64_t{0}, greatest_activation));
 }
 
 std::int32_t sum_of(const IntegerLayer& layer, std::size_t neuron,
-                    const std::vector<std::int64_t>& activations) {
+                    const std::vector<std::int32_t>& activations) {
   std::int64_t sum = layer.biases[neuron];
   const auto weights = layer.row(neuron);
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    sum += weights[i] * activations[i];
+    sum += std::int64_t{weights[i]} * activations[i];
   }
   if (sum < std::numeric_limits<std::int32_t>::min() || sum > std::numeric_limits<std::int32_t>::max()) {
     throw std::overflow_error("a sum of the integer network leaves 32 bits");
@@ -52,35 +59,32 @@ std::span<const std::int16_t> IntegerLayer::row(std::size_t neuron) const {
   return std::span(weights).subspan(neuron * inputs, inputs);
 }
 
-IntegerAnswer evaluate(const IntegerNetwork& network, std::span<const std::int32_t> raw) {
-  std::vector<std::int64_t> activations;
+std::vector<std::vector<std::int32_t>> layer_values(const IntegerNetwork& network,
+                                                    std::span<const std::int32_t> raw) {
+  std::vector<std::int32_t> activations;
   for (std::size_t i = 0; i < raw.size(); ++i) {
     activations.push_back(scaled_input(raw[i], network.input_scales[i]));
   }
-  for (std::size_t l = 0; l + 1 < network.layers.size(); ++l) {
+  std::vector<std::vector<std::int32_t>> values;
+  for (std::size_t l = 0; l < network.layers.size(); ++l) {
     const IntegerLayer& layer = network.layers[l];
-    std::vector<std::int64_t> next;
+    const bool hidden = l + 1 < network.layers.size();
+    std::vector<std::int32_t> next;
     for (std::size_t neuron = 0; neuron < layer.outputs(); ++neuron) {
-      const std::int64_t sum = sum_of(layer, neuron, activations);
-      next.push_back(std::clamp(shift_rounded(sum, layer.shift), std::int64_t{0}, greatest_activation));
+      const std::int32_t sum = sum_of(layer, neuron, activations);
+      next.push_back(hidden ? stored(sum, layer.shift) : sum);
     }
+    values.push_back(next);
     activations = std::move(next);
   }
-  IntegerAnswer answer;
-  for (std::size_t neuron = 0; neuron < network.layers.back().outputs(); ++neuron) {
-    answer.sums.push_back(sum_of(network.layers.back(), neuron, activations));
-  }
+  return values;
+}
+
+IntegerAnswer evaluate(const IntegerNetwork& network, std::span<const std::int32_t> raw) {
+  IntegerAnswer answer{.sums = layer_values(network, raw).back()};
   const auto best = std::max_element(answer.sums.begin(), answer.sums.end());
   answer.action = static_cast<std::size_t>(best - answer.sums.begin());
   return answer;
-}
-
-std::vector<double> q_values(const IntegerNetwork& network, const IntegerAnswer& answer) {
-  std::vector<double> q;
-  for (const std::int32_t sum : answer.sums) {
-    q.push_back(std::ldexp(static_cast<double>(sum), -network.layers.back().shift - 8));
-  }
-  return q;
 }
 
 std::vector<LayerBound> bound_layers(const IntegerNetwork& network) {

@@ -39,11 +39,13 @@ struct IntegerAnswer {
   std::size_t action = 0;          // the greatest sum; of equals, the first
 };
 
-// Throws std::overflow_error if a sum leaves 32 bits; that cannot happen once `bound_layers` fits.
-[[nodiscard]] IntegerAnswer evaluate(const IntegerNetwork& network, std::span<const std::int32_t> raw);
+// What each layer stores for this input: hidden activations, and last the output layer's sums.
+// Throws std::overflow_error if a sum leaves 32 bits; that cannot happen once every one of `bound_layers`
+// fits.
+[[nodiscard]] std::vector<std::vector<std::int32_t>> layer_values(const IntegerNetwork& network,
+                                                                  std::span<const std::int32_t> raw);
 
-// The Q values, in units of 1/256 and fractions of it.
-[[nodiscard]] std::vector<double> q_values(const IntegerNetwork& network, const IntegerAnswer& answer);
+[[nodiscard]] IntegerAnswer evaluate(const IntegerNetwork& network, std::span<const std::int32_t> raw);
 
 struct LayerBound {
   std::int64_t worst_sum = 0;             // the greatest |sum| + rounding of any neuron, over every input

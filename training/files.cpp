@@ -1,0 +1,42 @@
+#include "files.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+
+#include "report/atomic_file.hpp"
+
+namespace striker::training {
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) {
+    const std::string why = stream ? "it is a directory" : std::generic_category().message(errno);
+    throw std::runtime_error(fmt::format("{}: cannot be read ({})", file.string(), why));
+  }
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void write_file(const std::filesystem::path& file, std::string_view content) {
+  sil::AtomicFile output(file);
+  output.write(content);
+  output.finish();
+}
+
+void require_writable(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    throw std::runtime_error(fmt::format("{}: cannot be made ({}); choose a place that is writable",
+                                         directory.string(), error.message()));
+  }
+  const std::filesystem::path probe = directory / ".striker-probe";
+  write_file(probe, "");
+  std::filesystem::remove(probe, error);
+}
+
+}  // namespace striker::training

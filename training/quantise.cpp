@@ -1,0 +1,164 @@
+#include "quantise.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+namespace striker::training {
+
+namespace {
+
+// Play may meet a little more than calibration did.
+constexpr double activation_margin = 1.1;
+constexpr int q_fraction_bits = 8;  // the output's sum >> shift is Q in 1/256
+constexpr double greatest_weight = 32767.0;
+constexpr double greatest_bias = 2147483647.0;
+constexpr int greatest_shift = 30;
+
+struct FloatLayer {
+  Eigen::MatrixXd weights;
+  Eigen::VectorXd biases;
+};
+
+template <int L>
+FloatLayer layer_of(const Parameters& parameters) {
+  return {weights<L>(parameters).template cast<double>(), biases<L>(parameters).template cast<double>()};
+}
+
+// What each layer holds, a column a calibration state: inputs, hidden activations, Q.
+std::vector<Eigen::MatrixXd> float_play(const std::vector<FloatLayer>& layers,
+                                        std::span<const RawState> states) {
+  std::vector<Eigen::MatrixXd> held{Eigen::MatrixXd(state_elements, states.size())};
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    held[0].col(static_cast<Eigen::Index>(i)) = features(state_of(states[i])).cast<double>();
+  }
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    Eigen::MatrixXd sums = (layers[l].weights * held.back()).colwise() + layers[l].biases;
+    held.push_back(l + 1 < layers.size() ? Eigen::MatrixXd(sums.cwiseMax(0.0)) : sums);
+  }
+  return held;
+}
+
+// The greatest power of two that keeps `greatest` times it within `limit`.
+int exponent_for(double greatest, double limit) {
+  return static_cast<int>(std::floor(std::log2(limit / std::max(greatest, 1e-9))));
+}
+
+int activation_exponent(const Eigen::MatrixXd& held) {
+  return exponent_for(activation_margin * held.cwiseAbs().maxCoeff(),
+                      static_cast<double>(greatest_activation));
+}
+
+// raw * unit * 2^exponent as a multiplier of at most 20 bits and a shift.
+InputScale input_scale(double unit, int exponent) {
+  constexpr double greatest_multiplier = 1048576.0;
+  int shift = 40;
+  while (std::round(std::ldexp(unit, exponent + shift)) > greatest_multiplier) {
+    --shift;
+  }
+  return {.multiplier = static_cast<std::int32_t>(std::lround(std::ldexp(unit, exponent + shift))),
+          .shift = shift};
+}
+
+std::vector<InputScale> input_scales(int exponent) {
+  const double um = 1e-6 / position_unit_m;
+  const double mm_s = 1e-3 / speed_unit_m_s;
+  const double binary_angle = 1.0 / 32768.0;
+  std::vector<InputScale> scales;
+  for (const double unit : {um, um, mm_s, mm_s, mm_s, binary_angle}) {
+    scales.push_back(input_scale(unit, exponent));
+  }
+  return scales;
+}
+
+IntegerLayer integer_layer(const FloatLayer& layer, int weight_exponent, int input_exponent, int shift) {
+  IntegerLayer integers;
+  integers.inputs = static_cast<std::size_t>(layer.weights.cols());
+  integers.shift = shift;
+  for (Eigen::Index row = 0; row < layer.weights.rows(); ++row) {
+    for (Eigen::Index column = 0; column < layer.weights.cols(); ++column) {
+      const double scaled = std::ldexp(layer.weights(row, column), weight_exponent);
+      integers.weights.push_back(static_cast<std::int16_t>(std::lround(scaled)));
+    }
+    const double scaled = std::ldexp(layer.biases(row), weight_exponent + input_exponent);
+    integers.biases.push_back(static_cast<std::int32_t>(std::lround(scaled)));
+  }
+  return integers;
+}
+
+// Appends the layer at the greatest weight scale that passes the proof; returns that scale's exponent.
+int append_layer(IntegerNetwork& network, const FloatLayer& layer, int input_exponent, int output_exponent) {
+  const bool hidden = network.layers.size() + 1 < static_cast<std::size_t>(layer_count);
+  const int least_shift = hidden ? 1 : 0;
+  int exponent = exponent_for(layer.weights.cwiseAbs().maxCoeff(), greatest_weight);
+  for (;; --exponent) {
+    const int shift = input_exponent + exponent - output_exponent;
+    if (shift < least_shift) {
+      throw std::runtime_error(
+          fmt::format("layer {} cannot be quantised: its weights are too large for 32-bit sums",
+                      network.layers.size() + 1));
+    }
+    const double bias = std::ldexp(layer.biases.cwiseAbs().maxCoeff(), exponent + input_exponent);
+    if (shift > greatest_shift || bias > greatest_bias) {
+      continue;
+    }
+    network.layers.push_back(integer_layer(layer, exponent, input_exponent, shift));
+    if (bound_layers(network).back().fits()) {
+      return exponent;
+    }
+    network.layers.pop_back();
+  }
+}
+
+// Range, headroom and error of each layer, over the calibration states.
+void measure(Quantised& result, const std::vector<Eigen::MatrixXd>& held, std::span<const RawState> states) {
+  const std::vector<LayerBound> bounds = bound_layers(result.network);
+  const double count = static_cast<double>(states.size());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto values = layer_values(result.network, states[i]);
+    for (std::size_t l = 0; l < values.size(); ++l) {
+      const bool hidden = l + 1 < values.size();
+      const double limit = hidden ? static_cast<double>(greatest_activation) : 0x1p31;
+      LayerReport& report = result.layers[l];
+      const int exponent = report.activation_exponent + (hidden ? 0 : result.network.layers[l].shift);
+      for (std::size_t neuron = 0; neuron < values[l].size(); ++neuron) {
+        const double real = held[l + 1](static_cast<Eigen::Index>(neuron), static_cast<Eigen::Index>(i));
+        const double error = std::abs(std::ldexp(values[l][neuron], -exponent) - real);
+        report.mean_error += error / (count * static_cast<double>(values[l].size()));
+        report.greatest_error = std::max(report.greatest_error, error);
+        report.range_used = std::max(report.range_used, std::abs(values[l][neuron]) / limit);
+      }
+    }
+  }
+  for (std::size_t l = 0; l < bounds.size(); ++l) {
+    result.layers[l].headroom_bits = 31.0 - std::log2(static_cast<double>(bounds[l].worst_sum));
+  }
+}
+
+}  // namespace
+
+Quantised quantise(const Parameters& parameters, std::span<const RawState> calibration) {
+  const std::vector<FloatLayer> layers{layer_of<0>(parameters), layer_of<1>(parameters),
+                                       layer_of<2>(parameters)};
+  const std::vector<Eigen::MatrixXd> held = float_play(layers, calibration);
+  Quantised result;
+  result.input_exponent = activation_exponent(held[0]);
+  result.network.input_scales = input_scales(result.input_exponent);
+  int input_exponent = result.input_exponent;
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    const bool hidden = l + 1 < layers.size();
+    LayerReport report;
+    report.activation_exponent = hidden ? activation_exponent(held[l + 1]) : q_fraction_bits;
+    report.weight_exponent =
+        append_layer(result.network, layers[l], input_exponent, report.activation_exponent);
+    input_exponent = report.activation_exponent;
+    result.layers.push_back(report);
+  }
+  measure(result, held, calibration);
+  return result;
+}
+
+}  // namespace striker::training
