@@ -1,0 +1,267 @@
+#!/usr/bin/python3
+"""The programs on a real vcan0: run it where one exists (tools/with-vcan). Usage: vcan_test.py BIN_DIRECTORY"""
+
+import os
+import re
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BIN = sys.argv.pop(1)
+
+FAULT_REPORT, MODE_COMMAND, WHEEL_COMMAND, WHEEL_STATE, STATUS = 0x020, 0x040, 0x050, 0x060, 0x100
+STANDBY, ACTIVE, FAULT = 2, 3, 4
+SYNC_LOST = 5
+
+
+def program(name, *arguments, **options):
+    return subprocess.Popen([os.path.join(BIN, name), *arguments], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, **options)
+
+
+def run(name, *arguments, timeout=120):
+    return subprocess.run([os.path.join(BIN, name), *arguments], capture_output=True, text=True, timeout=timeout)
+
+
+def firmware(clock="sync", *arguments):
+    process = program("striker-firmware", "--can", "vcan0", "--clock", clock, *arguments)
+    process.stdout.readline()  # says when it listens
+    return process
+
+
+def stop(process):
+    if process.poll() is None:
+        process.send_signal(signal.SIGTERM)
+    return process.communicate(timeout=20)
+
+
+def read_log(file):
+    """[(stamp in ms, identifier, payload)] of a candump -L log."""
+    frames = []
+    with open(file, encoding="ascii") as log:
+        for line in log:
+            match = re.fullmatch(r"\((\d{10})\.(\d{6})\) vcan0 ([0-9A-F]{3})#([0-9A-F]*)", line.strip())
+            frames.append((int(match[1]) * 1000 + int(match[2]) // 1000, int(match[3], 16), bytes.fromhex(match[4])))
+    return frames
+
+
+def moves(payload):
+    """Does a wheel command carry torque or a set-point?"""
+    return any(payload[2:])
+
+
+class Vcan(unittest.TestCase):
+    maxDiff = 2000
+
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory()
+        self.addCleanup(self.directory.cleanup)
+
+    def file(self, name):
+        return os.path.join(self.directory.name, name)
+
+    def kick(self, log, *arguments):
+        result = run("striker-sil", "kick", "--episodes", "2", "--seed", "7", "--log", self.file(log), *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.file(log), "rb") as stream:
+            return stream.read()
+
+    def test_lockstep_gives_the_same_bytes_as_in_process(self):
+        for plant in ("drive", "servo"):
+            in_process = self.kick("a.log", "--bus", "inproc", "--plant", plant)
+            self.assertEqual(in_process, self.kick("b.log", "--bus", "inproc", "--plant", plant))
+            process = firmware()
+            try:
+                self.assertEqual(in_process, self.kick("c.log", "--bus", "can:vcan0", "--plant", plant))
+                self.assertEqual(in_process, self.kick("d.log", "--bus", "can:vcan0", "--plant", plant))
+            finally:
+                stop(process)
+
+    def test_a_paused_firmware_changes_no_byte(self):
+        in_process = self.kick("a.log", "--bus", "inproc")
+        process = firmware()
+        simulator = program("striker-sil", "kick", "--episodes", "2", "--seed", "7", "--bus", "can:vcan0", "--log",
+                            self.file("b.log"), "--answer-timeout", "30000")
+        pauses = 0
+        while simulator.poll() is None:
+            process.send_signal(signal.SIGSTOP)
+            time.sleep(0.1)
+            process.send_signal(signal.SIGCONT)
+            time.sleep(0.037)
+            pauses += 1
+        stop(process)
+        self.assertEqual(simulator.wait(), 0, simulator.communicate()[1])
+        simulator.communicate()
+        self.assertGreater(pauses, 5)
+        with open(self.file("b.log"), "rb") as stream:
+            self.assertEqual(in_process, stream.read())
+
+    def test_a_killed_firmware_is_told_and_survived_and_a_new_one_waits_for_its_arm(self):
+        first = firmware()
+        simulator = program("striker-sil", "kick", "--episodes", "12", "--bus", "can:vcan0", "--log",
+                            self.file("a.log"), "--answer-timeout", "300")
+        time.sleep(2)
+        first.kill()
+        first.communicate()
+        time.sleep(1)
+        second = firmware()
+        _, told = simulator.communicate(timeout=120)
+        stop(second)
+        self.assertEqual(simulator.returncode, 0, told)
+        self.assertIn("running on unanswered", told)
+        self.assertIn("answers again", told)
+        self.check_silence(read_log(self.file("a.log")))
+
+    def check_silence(self, frames):
+        commands = [stamp for stamp, identifier, _ in frames if identifier == WHEEL_COMMAND]
+        gaps = [(before, after) for before, after in zip(commands, commands[1:]) if after > before + 1]
+        self.assertEqual(len(gaps), 1)
+        last, back = gaps[0]
+        self.assertGreater(back - last, 20)
+        for stamp, identifier, payload in frames:
+            if identifier == WHEEL_STATE and last + 11 <= stamp <= back:
+                self.assertEqual(payload[1] >> 4 & 1, 1, f"torque not cut at {stamp} ms, last command {last} ms")
+        arms = [s for s, identifier, payload in frames if identifier == MODE_COMMAND and payload[1] >> 4 == 1 and s > back]
+        until = min(arms, default=frames[-1][0])
+        for stamp, identifier, payload in frames:
+            if identifier == WHEEL_COMMAND and back <= stamp < until:
+                self.assertFalse(moves(payload), f"moved at {stamp} ms before it was armed")
+
+    def test_a_killed_simulator_becomes_a_latched_fault_and_torque_zero(self):
+        process = firmware("sync", "--sync-timeout", "500")
+        simulator = program("striker-sil", "kick", "--episodes", "50", "--bus", "can:vcan0")
+        time.sleep(3)
+        with listening() as bus:
+            simulator.kill()
+            simulator.communicate()
+            frames = collect(bus, 2.0)
+        _, told = stop(process)
+        self.assertIn("fault sync_lost", told)
+        reports = [payload for identifier, payload in frames if identifier == FAULT_REPORT]
+        self.assertEqual(reports[-1][2], SYNC_LOST)
+        commands = [payload for identifier, payload in frames if identifier == WHEEL_COMMAND]
+        self.assertFalse(moves(commands[-1]))
+
+    def test_candump_shows_the_bus(self):
+        process = firmware()
+        with open(self.file("candump.log"), "wb") as output:
+            # One processor serves all: candump needs room for what it cannot read in time.
+            candump = subprocess.Popen(["candump", "-L", "-r", "33554432", "vcan0"], stdout=output)
+            time.sleep(0.3)
+            self.kick("a.log", "--bus", "can:vcan0")
+            wait_until_still(self.file("candump.log"))
+            candump.terminate()
+            candump.wait()
+        stop(process)
+        with open(self.file("candump.log"), encoding="ascii") as log:
+            lines = log.read().splitlines()
+        seen = {line.split()[2][:3] for line in lines}
+        self.assertLessEqual({"030", "040", "050", "060", "070", "080", "100", "110", "120", "700", "710"}, seen)
+        with open(self.file("a.log"), encoding="ascii") as log:
+            logged = [line.split()[2] for line in log]
+        shown = [line.split()[2] for line in lines]
+        self.assertEqual(shown[-len(logged):], logged)
+
+    def test_bad_frames_are_ignored_and_counted_on_the_real_bus(self):
+        process = firmware("realtime")
+        with listening() as bus:
+            for identifier in (0x010, 0x040, 0x060, 0x070, 0x080):
+                send(bus, identifier, bytes(8)[:{0x010: 2, 0x040: 2, 0x060: 6, 0x070: 8, 0x080: 6}[identifier]])
+                send(bus, identifier, b"\x01")
+            time.sleep(0.3)
+        status = run("striker-command", "--can", "vcan0", "status")
+        stop(process)
+        self.assertIn("state standby, fault none", status.stdout)
+        self.assertIn("5 wrong length, 5 wrong CRC, 0 wrong counter, 0 out of range", status.stdout)
+
+    def test_the_operators_tool(self):
+        unanswered = run("striker-command", "--can", "vcan0", "--timeout", "200", "status")
+        self.assertEqual(unanswered.returncode, 2)
+        self.assertIn("is striker-firmware running", unanswered.stderr)
+        process = firmware("realtime")
+        self.addCleanup(stop, process)
+        time.sleep(0.5)
+        arm = run("striker-command", "--can", "vcan0", "--timeout", "300", "arm")
+        self.assertEqual(arm.returncode, 1)
+        self.assertIn("vision not ready", arm.stderr)
+        estop = run("striker-command", "--can", "vcan0", "estop")
+        self.assertEqual(estop.returncode, 0, estop.stderr)
+        self.assertIn("fault emergency_stop", estop.stdout)
+        time.sleep(0.5)
+        clear = run("striker-command", "--can", "vcan0", "clear")
+        self.assertEqual(clear.returncode, 0, clear.stderr)
+        self.assertIn("state standby, fault none", clear.stdout)
+
+    def test_real_time_runs_and_reports_and_stays_safe(self):
+        process = firmware("realtime")
+        result = run("striker-sil", "kick", "--bus", "can:vcan0", "--realtime", "--episodes", "2", "--log",
+                     self.file("a.log"))
+        out, told = stop(process)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"simulator's clock: \d+ ticks, \d+ periods missed, lateness mean")
+        self.assertRegex(out, r"stopped after \d+ ticks; \d+ periods missed; lateness mean .* max")
+        state = None
+        for stamp, identifier, payload in read_log(self.file("a.log")):
+            if identifier == STATUS:
+                state = payload[1] >> 4
+            if identifier == WHEEL_COMMAND and moves(payload):
+                self.assertIn(state, (STANDBY, ACTIVE), f"moved in fault at {stamp} ms: {told}")
+
+    def test_a_stopped_firmware_leaves_torque_zero(self):
+        process = firmware()
+        simulator = program("striker-sil", "kick", "--episodes", "50", "--bus", "can:vcan0", "--answer-timeout", "200")
+        time.sleep(3)
+        with listening() as bus:
+            stop(process)
+            frames = collect(bus, 0.3)
+        simulator.kill()
+        simulator.communicate()
+        commands = [payload for identifier, payload in frames if identifier == WHEEL_COMMAND]
+        self.assertFalse(moves(commands[-1]))
+
+    def test_an_interface_that_is_not_there(self):
+        for arguments in (("striker-firmware", "--can", "vcan9"), ("striker-command", "--can", "vcan9", "status"),
+                          ("striker-sil", "kick", "--bus", "can:vcan9")):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("'vcan9': no such interface", result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1)
+
+
+def wait_until_still(file):
+    size = -1
+    while size != os.path.getsize(file):
+        size = os.path.getsize(file)
+        time.sleep(0.5)
+
+
+def listening():
+    bus = socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
+    bus.bind(("vcan0",))
+    bus.settimeout(0.05)
+    return bus
+
+
+def send(bus, identifier, payload):
+    bus.send(struct.pack("=IB3x8s", identifier, len(payload), payload.ljust(8, b"\0")))
+
+
+def collect(bus, seconds):
+    frames = []
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        try:
+            identifier, length, data = struct.unpack("=IB3x8s", bus.recv(16))
+            frames.append((identifier, data[:length]))
+        except TimeoutError:
+            pass
+    return frames
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
