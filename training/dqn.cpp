@@ -15,33 +15,6 @@ constexpr std::uint64_t weights_stream = 101;
 constexpr std::uint64_t exploration_stream = 102;
 constexpr std::uint64_t sampling_stream = 103;
 
-// Folds n steps into one transition: r_0 + gamma r_1 + ... + gamma^n max Q(s_n). n = 1 is the paper's.
-class StepFolder {
- public:
-  StepFolder(int n, double gamma) : n_(static_cast<std::size_t>(n)), gamma_(static_cast<float>(gamma)) {
-    open_.reserve(n_);
-  }
-
-  void take(const Features& state, int action, double reward, const Features& next, bool end,
-            Replay& replay) {
-    open_.push_back({.state = state, .action = action, .reward = 0.0F, .next = next, .discount = 1.0F});
-    for (Transition& transition : open_) {
-      transition.reward += transition.discount * static_cast<float>(reward);
-      transition.discount = end ? 0.0F : transition.discount * gamma_;
-      transition.next = next;
-    }
-    while (open_.size() == n_ || (end && !open_.empty())) {
-      replay.push(open_.front());
-      open_.erase(open_.begin());
-    }
-  }
-
- private:
-  std::size_t n_;
-  float gamma_;
-  std::vector<Transition> open_;  // the oldest first
-};
-
 class Learner {
  public:
   Learner(const LearnerConfig& config, std::uint64_t seed)

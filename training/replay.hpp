@@ -1,4 +1,4 @@
-// The replay memory: a ring that forgets the oldest.
+// The replay memory: a ring that forgets the oldest, and what folds n steps into one transition for it.
 #pragma once
 
 #include <cstddef>
@@ -31,6 +31,33 @@ class Replay {
  private:
   std::vector<Transition> ring_;
   std::size_t pushed_ = 0;
+};
+
+// Folds n steps into one transition: r_0 + gamma r_1 + ... + gamma^n max Q(s_n). n = 1 is the paper's.
+class StepFolder {
+ public:
+  StepFolder(int n, double gamma) : n_(static_cast<std::size_t>(n)), gamma_(static_cast<float>(gamma)) {
+    open_.reserve(n_);
+  }
+
+  void take(const Features& state, int action, double reward, const Features& next, bool end,
+            Replay& replay) {
+    open_.push_back({.state = state, .action = action, .reward = 0.0F, .next = next, .discount = 1.0F});
+    for (Transition& transition : open_) {
+      transition.reward += transition.discount * static_cast<float>(reward);
+      transition.discount = end ? 0.0F : transition.discount * gamma_;
+      transition.next = next;
+    }
+    while (open_.size() == n_ || (end && !open_.empty())) {
+      replay.push(open_.front());
+      open_.erase(open_.begin());
+    }
+  }
+
+ private:
+  std::size_t n_;
+  float gamma_;
+  std::vector<Transition> open_;  // the oldest first
 };
 
 }  // namespace striker::training
