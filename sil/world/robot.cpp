@@ -128,6 +128,11 @@ void apply_torques(const Robot& robot) {
   }
 }
 
+Vec2 tyre_friction_axis(const Robot& robot) {
+  const dReal* rotation = dBodyGetRotation(robot.body);
+  return {rotation[0] - rotation[4], rotation[0] + rotation[4]};
+}
+
 double rim_speed_m_s(const Robot& robot, Wheel wheel) {
   return wheel_radius_m * dJointGetHingeAngleRate(robot.hinges[index(wheel)]);
 }

@@ -33,6 +33,12 @@ void set_torque(Robot& robot, Wheel wheel, double torque_Nm);
 // ODE forgets torques after each step: to be called before it.
 void apply_torques(const Robot& robot);
 
+// For the tyres' friction pyramid: its corners point along the robot and across. ODE limits friction by the
+// normal forces as they are without friction, where the motors' reaction tilts the robot off its wheels; with
+// the pyramid's sides along the robot, the wheels would then spin at full torque (9.6 instead of 11.1 m/s^2
+// for a forward), and with the world's axes only for some headings. Coulomb's cone lets them grip.
+[[nodiscard]] Vec2 tyre_friction_axis(const Robot& robot);
+
 [[nodiscard]] double rim_speed_m_s(const Robot& robot, Wheel wheel);
 [[nodiscard]] double heading_rad(const Robot& robot);
 

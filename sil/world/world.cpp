@@ -1,11 +1,10 @@
 #include "world/world.hpp"
 
-#include <array>
 #include <cmath>
-#include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "world/contacts.hpp"
 #include "world/field.hpp"
 #include "world/field_specs.hpp"
 #include "world/materials.hpp"
@@ -18,11 +17,6 @@ namespace {
 constexpr double gravity_m_s2 = 9.81;
 constexpr double kept_after_1_s = 0.8;  // of every body's linear and angular velocity
 constexpr std::size_t max_robots = 10;
-constexpr int max_contacts = 10;  // kept of a pair, as Webots does
-// Each contact of a step is softer than the one before by this share. Left and right of a robot are else
-// exactly alike, and on such ties ODE's solver gives up ("LCP internal error, s <= 0") and leaves the forces
-// incomplete, in about 4 of 100,000 steps.
-constexpr double tie_break = 1e-6;
 
 // Once in a process, and never closed: worlds come and go at any time.
 void init_ode() {
@@ -72,30 +66,27 @@ Vec2 contact_direction(const dContactGeom& contact, dBodyID robot, dBodyID ball)
 struct World::Impl {
   explicit Impl(const WorldConfig& config);
 
-  std::span<const dContactGeom> collide(dGeomID a, dGeomID b, Pair pair);
   void collide_robot(Robot& robot);
   void collide_ball();
+  [[nodiscard]] Vec2 ball_slip_m_s() const;
   void collide_ball_with(Robot& robot);
   void step();
 
   double step_s;
   bool has_walls;
   WorldHandle world;
-  JointGroupHandle contact_joints;
+  Contacts contacts;
   Field field;
   std::vector<Robot> robots;
   dBodyID ball;
   GeomHandle ball_geom;
-  std::array<dSurfaceParameters, pair_count> surfaces{};
-  std::array<dContactGeom, max_contacts> found{};
-  int contact_count = 0;  // in this step
 };
 
 World::Impl::Impl(const WorldConfig& config)
     : step_s(config.step_s),
       has_walls(config.walls),
       world(make_ode_world(config.step_s)),
-      contact_joints(dJointGroupCreate(0)),
+      contacts(world.get(), config.step_s),
       field(make_field(config.walls)),
       ball(dBodyCreate(world.get())),
       ball_geom(dCreateSphere(nullptr, ball_radius_m)) {
@@ -106,54 +97,44 @@ World::Impl::Impl(const WorldConfig& config)
   for (const Role role : config.robots) {
     robots.push_back(make_robot(world.get(), role));
   }
-  for (std::size_t i = 0; i < pair_count; ++i) {
-    surfaces.at(i) = surface(static_cast<Pair>(i), step_s);
-  }
-}
-
-std::span<const dContactGeom> World::Impl::collide(dGeomID a, dGeomID b, Pair pair) {
-  const int count = dCollide(a, b, max_contacts, found.data(), sizeof(dContactGeom));
-  dContact contact{};
-  contact.surface = surfaces[static_cast<std::size_t>(pair)];
-  const double soft_cfm = contact.surface.soft_cfm;
-  for (int i = 0; i < count; ++i) {
-    contact.geom = found[static_cast<std::size_t>(i)];
-    contact.surface.soft_cfm = soft_cfm * (1.0 + tie_break * ++contact_count);
-    dJointID joint = dJointCreateContact(world.get(), contact_joints.get(), &contact);
-    dJointAttach(joint, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
-  }
-  return {found.data(), static_cast<std::size_t>(count)};
 }
 
 void World::Impl::collide_robot(Robot& robot) {
   for (const GeomHandle& tyre : robot.tyres) {
-    collide(tyre.get(), field.floor.get(), Pair::floor_wheel);
+    contacts.collide(tyre.get(), field.floor.get(), Pair::floor_wheel, tyre_friction_axis(robot));
   }
   for (const GeomHandle& skid : robot.skids) {
-    collide(skid.get(), field.floor.get(), Pair::floor_body);
+    contacts.collide(skid.get(), field.floor.get(), Pair::floor_body);
   }
-  collide(robot.box.get(), field.floor.get(), Pair::floor_body);
+  contacts.collide(robot.box.get(), field.floor.get(), Pair::floor_body);
   const dReal* position = dBodyGetPosition(robot.body);
   if (has_walls && near_wall(position[0], position[1], robot_reach_m)) {
     for (const GeomHandle& wall : field.walls) {
-      collide(robot.box.get(), wall.get(), Pair::wall_body);
+      contacts.collide(robot.box.get(), wall.get(), Pair::wall_body);
     }
   }
   if (has_walls && position[2] + robot_reach_m > robot_ceiling_m) {
-    collide(robot.box.get(), field.robot_ceiling.get(), Pair::wall_body);
+    contacts.collide(robot.box.get(), field.robot_ceiling.get(), Pair::wall_body);
   }
 }
 
+// Along the slip the pyramid's force is that of Coulomb's cone, in every direction on the field.
+Vec2 World::Impl::ball_slip_m_s() const {
+  const dReal* velocity = dBodyGetLinearVel(ball);
+  const dReal* spin = dBodyGetAngularVel(ball);
+  return {velocity[0] - ball_radius_m * spin[1], velocity[1] + ball_radius_m * spin[0]};
+}
+
 void World::Impl::collide_ball() {
-  collide(ball_geom.get(), field.floor.get(), Pair::floor_ball);
+  contacts.collide(ball_geom.get(), field.floor.get(), Pair::floor_ball, ball_slip_m_s());
   const dReal* position = dBodyGetPosition(ball);
   if (has_walls && near_wall(position[0], position[1], ball_radius_m)) {
     for (const GeomHandle& wall : field.walls) {
-      collide(ball_geom.get(), wall.get(), Pair::wall_ball);
+      contacts.collide(ball_geom.get(), wall.get(), Pair::wall_ball);
     }
   }
   if (has_walls && position[2] + ball_radius_m > ball_ceiling_m) {
-    collide(ball_geom.get(), field.ball_ceiling.get(), Pair::wall_ball);
+    contacts.collide(ball_geom.get(), field.ball_ceiling.get(), Pair::wall_ball);
   }
 }
 
@@ -164,27 +145,26 @@ void World::Impl::collide_ball_with(Robot& robot) {
     return;
   }
   const Pair pair = robot.role == Role::goalkeeper ? Pair::goalkeeper_ball : Pair::body_ball;
-  const auto contacts = collide(robot.box.get(), ball_geom.get(), pair);
-  if (!contacts.empty()) {
-    robot.ball_contact = contact_direction(contacts.front(), robot.body, ball);
+  const auto met = contacts.collide(robot.box.get(), ball_geom.get(), pair);
+  if (!met.empty()) {
+    robot.ball_contact = contact_direction(met.front(), robot.body, ball);
   }
 }
 
 void World::Impl::step() {
-  contact_count = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     collide_robot(robots[i]);
     collide_ball_with(robots[i]);
     for (std::size_t j = i + 1; j < robots.size(); ++j) {
       if (distance_squared(robots[i].body, robots[j].body) < 4.0 * robot_reach_m * robot_reach_m) {
-        collide(robots[i].box.get(), robots[j].box.get(), Pair::body_body);
+        contacts.collide(robots[i].box.get(), robots[j].box.get(), Pair::body_body);
       }
     }
     apply_torques(robots[i]);
   }
   collide_ball();
   dWorldStep(world.get(), step_s);
-  dJointGroupEmpty(contact_joints.get());
+  contacts.clear();
 }
 
 World::World(const WorldConfig& config) {
