@@ -63,7 +63,7 @@ kill -s TERM $!
 wait $! && status=0 || status=$?
 check "SIGTERM is passed on" test "$status $(<../out)" = "9 caught"
 
-check "SIGTERM before the command started" test "$(status_of timeout --preserve-status 0.3 "${run[@]}" sleep 60)" = 143
+check "SIGTERM before the command starts" test "$(status_of timeout 0.3 "${run[@]}" sleep 60)" = 124
 check "a reader that goes away ends it" test "$("${run[@]}" yes | head -n 1)" = y
 check "inside itself" test "$(status_of "${run[@]}" "$with_vcan" bash -c 'exit 7')" = 7
 check "nothing is left" nothing_left
