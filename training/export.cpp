@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint64_t calibration_seed = 1;
 constexpr std::uint64_t calibration_stream = 104;
-constexpr int calibration_plays = 250;
-constexpr int validation_plays = 250;
+constexpr int calibration_plays = 150;
+constexpr int validation_plays = 150;
 constexpr std::size_t golden_count = 16;
 
 // The states before contact of `count` episodes each of greedy and of random play, beginning with `first`.

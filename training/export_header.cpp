@@ -25,17 +25,18 @@ void add_layer(Fnv1a& hash, const IntegerLayer& layer) {
   hash.add(static_cast<std::uint8_t>(layer.shift));
 }
 
-// "{{1, 2, 3}}" as std::array wants it, broken over lines.
+// "{{1, 2, 3}}" as std::array wants it, from this column on, broken over lines.
 template <class Numbers>
-std::string array_of(const Numbers& numbers, std::size_t indent) {
+std::string array_of(const Numbers& numbers, std::size_t column) {
+  constexpr std::size_t indent = 12;
   std::string text = "{{";
-  std::size_t column = indent + text.size();
+  column += text.size();
   for (std::size_t i = 0; i < std::size(numbers); ++i) {
     std::string number = fmt::format("{}{}", numbers[i], i + 1 < std::size(numbers) ? "," : "}}");
-    if (column + number.size() + 3 > columns) {
+    if (column + number.size() + 2 > columns) {
       text += '\n';
-      text.append(indent + 2, ' ');
-      column = indent + 2;
+      text.append(indent, ' ');
+      column = indent;
     } else if (i > 0) {
       text += ' ';
       ++column;
@@ -52,7 +53,7 @@ std::string layer_text(const char* name, const IntegerLayer& layer) {
     text += fmt::format("            {},\n", array_of(layer.row(neuron), 12));
   }
   text += fmt::format("        }}}},\n        .biases = {},\n        .shift = {},\n    }},\n",
-                      array_of(layer.biases, 8), layer.shift);
+                      array_of(layer.biases, 18), layer.shift);
   return text;
 }
 

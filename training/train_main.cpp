@@ -1,6 +1,7 @@
 // striker-train: learns the kick from a configuration and a seed, and writes a model and its learning curve.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <iterator>
@@ -73,9 +74,9 @@ int train_and_save(const Options& options) {
   fmt::print(
       "{} episodes, {} decisions, {} gradient steps; mean reward over the last {}: {:.3f}; greedy, on {} "
       "validation episodes: {}\n{}\n{}\n",
-      training.rows.size(), training.decisions, training.gradient_steps, moving_average_span,
-      training.rows.back().moving_average, config.validation_episodes,
-      mean == model.metadata.end() ? "not measured" : mean->second,
+      training.rows.size(), training.decisions, training.gradient_steps,
+      std::min<std::size_t>(moving_average_span, training.rows.size()), training.rows.back().moving_average,
+      config.validation_episodes, mean == model.metadata.end() ? "not measured" : mean->second,
       (options.out / "model.safetensors").string(), (options.out / "learning_curve.csv").string());
   if (interrupted != 0) {
     fmt::print(
@@ -104,7 +105,8 @@ int main(int argc, char** argv) {
   app.add_option("--config", options.config, "TOML file, see training/configs/paper.toml for every key")
       ->required();
   app.add_option("--seed", options.seed, "of the weights, the episodes, the exploration and the sampling")
-      ->required();
+      ->required()
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--out", options.out, "directory for the model and the learning curve; made if missing")
       ->required();
   return run(app, argc, argv, [&options] { return train_and_save(options); });

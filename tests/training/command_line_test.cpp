@@ -1,0 +1,197 @@
+// The three programs as a user meets them: help, results, and one line and code 2 for bad input.
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "fixtures.hpp"
+
+namespace striker::training {
+namespace {
+
+struct Result {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+class CommandLine : public testing::Test {
+ protected:
+  Result run(const std::string& command) {
+    const auto out = directory_ / "out.txt";
+    const auto err = directory_ / "err.txt";
+    const int status = std::system(fmt::format("{} > {} 2> {}", command, out.string(), err.string()).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
+  }
+
+  // Fails with code 2 and one line that holds `complaint`.
+  void expect_refusal(const std::string& command, const std::string& complaint) {
+    const Result result = run(command);
+    EXPECT_EQ(result.code, 2) << command;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find(complaint), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (directory_ / name).string(); }
+
+  // A configuration of a second, on disk.
+  std::string quick_config() {
+    std::string text = replaced(paper_text(), "\nepisodes = 5000", "\nepisodes = 30");
+    text = replaced(text, "validation_episodes = 1000", "validation_episodes = 20");
+    text = replaced(text, "warm_up = 1000", "warm_up = 200");
+    write_to(path("quick.toml"), text);
+    return path("quick.toml");
+  }
+
+  std::string a_model() {
+    save_model({.parameters = some_parameters(1), .metadata = {{"seed", "1"}}}, path("model.safetensors"));
+    return path("model.safetensors");
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(CommandLine, HelpNamesEveryOption) {
+  const auto help = [this](const char* program) { return run(fmt::format("{} --help", program)).out; };
+  for (const char* option : {"--config", "--seed", "--out"}) {
+    EXPECT_NE(help(STRIKER_TRAIN).find(option), std::string::npos) << option;
+  }
+  for (const char* option :
+       {"--model", "--episodes", "--seed", "--pose", "--velocities", "--decisions", "--json"}) {
+    EXPECT_NE(help(STRIKER_EVALUATE).find(option), std::string::npos) << option;
+  }
+  for (const char* option : {"MODEL", "--output", "--report"}) {
+    EXPECT_NE(help(STRIKER_EXPORT).find(option), std::string::npos) << option;
+  }
+  EXPECT_EQ(run(fmt::format("{} --help", STRIKER_TRAIN)).code, 0);
+}
+
+TEST_F(CommandLine, TrainEvaluateExportTwiceGivesTheSameBytes) {
+  const std::string config = quick_config();
+  for (const char* out : {"a", "b"}) {
+    const Result trained =
+        run(fmt::format("{} --config {} --seed 3 --out {}", STRIKER_TRAIN, config, path(out)));
+    ASSERT_EQ(trained.code, 0) << trained.err;
+    const std::string model = path(out) + "/model.safetensors";
+    ASSERT_EQ(
+        run(fmt::format("{} {} -o {}.hpp --report {}.json", STRIKER_EXPORT, model, path(out), path(out)))
+            .code,
+        0);
+  }
+  EXPECT_EQ(content_of(path("a") + "/model.safetensors"), content_of(path("b") + "/model.safetensors"));
+  EXPECT_EQ(content_of(path("a.hpp")), content_of(path("b.hpp")));
+  EXPECT_EQ(content_of(path("a.json")), content_of(path("b.json")));
+  const std::string curve = content_of(path("a") + "/learning_curve.csv");
+  EXPECT_EQ(curve, content_of(path("b") + "/learning_curve.csv"));
+  EXPECT_EQ(curve.find("episode,steps,reward,moving_average_250,contact,epsilon,loss\n"), 0U);
+  EXPECT_EQ(std::count(curve.begin(), curve.end(), '\n'), 31);
+}
+
+TEST_F(CommandLine, EvaluateWritesTheCommonReport) {
+  const std::string model = a_model();
+  const std::string command = fmt::format("{} --model {} --episodes 20 --seed 4", STRIKER_EVALUATE, model);
+  ASSERT_EQ(run(command + " --pose anywhere --velocities estimated --json " + path("r.json")).code, 0);
+  const auto report = nlohmann::json::parse(content_of(path("r.json")));
+  EXPECT_EQ(report.at("episodes"), 20);
+  EXPECT_EQ(report.at("seed"), 4);
+  EXPECT_EQ(report.at("pose"), "anywhere");
+  EXPECT_EQ(report.at("plant"), "servo");
+  EXPECT_EQ(report.at("policy"), model_identity(some_parameters(1)));
+}
+
+TEST_F(CommandLine, EvaluateComparesDecisions) {
+  const std::string model = a_model();
+  write_to(path("d.csv"),
+           "episode,decision,before_contact,action,ball_x_um,ball_y_um,robot_speed_mm_s,ball_vx_mm_s,"
+           "ball_vy_mm_s,ball_angle\n0,0,1,0,2000000,0,0,-1000,0,-32768\n0,1,0,1,0,0,0,0,0,0\n");
+  const std::string command =
+      fmt::format("{} --model {} --decisions {}", STRIKER_EVALUATE, model, path("d.csv"));
+  ASSERT_EQ(run(command + " --json " + path("a.json")).code, 0);
+  const auto report = nlohmann::json::parse(content_of(path("a.json")));
+  EXPECT_EQ(report.at("states"), 1);
+  EXPECT_TRUE(report.contains("clear_agreement"));
+  EXPECT_TRUE(report.contains("mean_regret"));
+}
+
+TEST_F(CommandLine, AnInterruptedTrainingKeepsWhatItHas) {
+  const std::string config = path("long.toml");
+  write_to(config, replaced(paper_text(), "\nepisodes = 5000", "\nepisodes = 1000000"));
+  // Interrupts it as soon as it shows progress.
+  write_to(path("interrupt.sh"), fmt::format("{} --config {} --seed 1 --out {} &\n"
+                                             "while ! grep -q episode {}; do sleep 0.05; done\n"
+                                             "kill -INT $!\nwait $!\n",
+                                             STRIKER_TRAIN, config, path("cut"), path("err.txt")));
+  const Result result = run("sh " + path("interrupt.sh"));
+  EXPECT_EQ(result.code, 130);
+  EXPECT_NE(result.err.find("interrupted after"), std::string::npos) << result.err;
+  EXPECT_NO_THROW((void)load_model(path("cut") + "/model.safetensors"));
+  const std::string curve = content_of(path("cut") + "/learning_curve.csv");
+  EXPECT_GT(std::count(curve.begin(), curve.end(), '\n'), 1);
+}
+
+TEST_F(CommandLine, TrainRefusesBadInput) {
+  const std::string config = quick_config();
+  const auto train_with = [&](const std::string& file, const std::string& out) {
+    return fmt::format("{} --config {} --seed 1 --out {}", STRIKER_TRAIN, file, out);
+  };
+  expect_refusal(train_with("/no/such.toml", path("out")), "/no/such.toml");
+  write_to(path("bad.toml"), replaced(paper_text(), "gamma = 0.95", "gamma = 7"));
+  expect_refusal(train_with(path("bad.toml"), path("out")), "learner.gamma = 7");
+  expect_refusal(train_with(config, "/proc/striker"), "/proc/striker");
+  expect_refusal(train_with(config, config), config);
+  expect_refusal(fmt::format("{} --config {} --out {}", STRIKER_TRAIN, config, path("out")), "--seed");
+  expect_refusal(fmt::format("{} --seed -1 --config {} --out {}", STRIKER_TRAIN, config, path("out")),
+                 "--seed");
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(CommandLine, EvaluateRefusesBadInput) {
+  const std::string model = a_model();
+  const std::string whole = content_of(model);
+  write_to(path("cut.safetensors"), whole.substr(0, whole.size() - 100));
+  Parameters broken = some_parameters(1);
+  broken(100) = std::numeric_limits<float>::quiet_NaN();
+  save_model({.parameters = broken, .metadata = {}}, path("nan.safetensors"));
+  const auto evaluate_with = [&](const std::string& file, const std::string& more) {
+    return fmt::format("{} --model {} {}", STRIKER_EVALUATE, file, more);
+  };
+  expect_refusal(evaluate_with(path("cut.safetensors"), "--episodes 2 --seed 1"), "truncated");
+  expect_refusal(evaluate_with(path("nan.safetensors"), "--episodes 2 --seed 1"), "0.weight holds NaN");
+  expect_refusal(evaluate_with(path("none"), "--episodes 2 --seed 1"), "none");
+  expect_refusal(evaluate_with(model, "--episodes 0 --seed 1"), "--episodes");
+  expect_refusal(evaluate_with(model, "--episodes 2"), "--seed");
+  expect_refusal(evaluate_with(model, ""), "--decisions");
+  expect_refusal(evaluate_with(model, "--episodes 2 --seed 1 --pose here"), "--pose");
+  expect_refusal(evaluate_with(model, "--decisions " + path("none.csv")), "none.csv");
+}
+
+TEST_F(CommandLine, AnUnwritableResultIsRefusedAndNothingIsLeft) {
+  const std::string model = a_model();
+  // No standard output is expected: these two fail after their work.
+  const Result report =
+      run(fmt::format("{} --model {} --episodes 2 --seed 1 --json /no/such/r.json", STRIKER_EVALUATE, model));
+  EXPECT_EQ(report.code, 2);
+  EXPECT_NE(report.err.find("/no/such/r.json"), std::string::npos) << report.err;
+  const Result header = run(fmt::format("{} {} -o {}", STRIKER_EXPORT, model, path("no/such.hpp")));
+  EXPECT_EQ(header.code, 2);
+  EXPECT_NE(header.err.find("no/such.hpp"), std::string::npos) << header.err;
+  EXPECT_FALSE(std::filesystem::exists(path("no")));
+}
+
+TEST_F(CommandLine, ExportRefusesBadInput) {
+  const std::string model = a_model();
+  const std::string whole = content_of(model);
+  write_to(path("cut.safetensors"), whole.substr(0, 4000));
+  expect_refusal(fmt::format("{} {} -o {}", STRIKER_EXPORT, path("cut.safetensors"), path("h.hpp")),
+                 "truncated");
+  save_model({.parameters = some_parameters(1), .metadata = {{"equations", "printed"}}}, path("printed"));
+  expect_refusal(fmt::format("{} {} -o {}", STRIKER_EXPORT, path("printed"), path("h.hpp")), "equations");
+  expect_refusal(fmt::format("{} {}", STRIKER_EXPORT, model), "--output");
+  EXPECT_FALSE(std::filesystem::exists(path("h.hpp")));
+}
+
+}  // namespace
+}  // namespace striker::training

@@ -1,0 +1,86 @@
+// The quantiser: the proof holds, the ranges are kept, and the choices stay.
+#include "quantise.hpp"
+
+#include <cmath>
+
+#include "agreement.hpp"
+#include "fixtures.hpp"
+
+namespace striker::training {
+namespace {
+
+std::vector<RawState> some_states(unsigned seed, int count) {
+  std::mt19937 random(seed);
+  std::vector<RawState> states;
+  for (int i = 0; i < count; ++i) {
+    states.push_back(some_state(random));
+  }
+  return states;
+}
+
+class Quantise : public testing::TestWithParam<float> {};
+
+// From tiny to large weights: what is proved, and what firmware/core/policy.hpp allows.
+TEST_P(Quantise, FitsTheFirmwaresArithmetic) {
+  const Parameters parameters = GetParam() * some_parameters(1);
+  const Quantised quantised = quantise(parameters, some_states(2, 500));
+  for (const LayerBound& bound : bound_layers(quantised.network)) {
+    EXPECT_TRUE(bound.fits());
+  }
+  for (const InputScale& scale : quantised.network.input_scales) {
+    EXPECT_GT(scale.multiplier, 0);
+    EXPECT_LE(scale.multiplier, 1 << 20);
+    EXPECT_GE(scale.shift, 1);
+    EXPECT_LE(scale.shift, 40);
+  }
+  for (std::size_t l = 0; l < 3; ++l) {
+    EXPECT_GE(quantised.network.layers[l].shift, l < 2 ? 1 : 0);
+    EXPECT_LE(quantised.network.layers[l].shift, 30);
+    EXPECT_LE(quantised.layers[l].range_used, 1.0);
+    EXPECT_GE(quantised.layers[l].headroom_bits, 0.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Weights, Quantise, testing::Values(0.2F, 0.7F, 1.0F, 1.5F));
+
+TEST(Quantise, AgreesWithFloatOnStatesItHasNotSeen) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const Parameters parameters = some_parameters(seed);
+    const Quantised quantised = quantise(parameters, some_states(seed, 2000));
+    std::vector<Decision> decisions;
+    double greatest_error = 0.0;
+    for (const RawState& state : some_states(seed + 100, 2000)) {
+      const IntegerAnswer answer = evaluate(quantised.network, state);
+      decisions.push_back({.state = state, .action = static_cast<int>(answer.action)});
+      const QValues q = q_values(parameters, features(state_of(state)));
+      for (int k = 0; k < actions; ++k) {
+        const double integer =
+            std::ldexp(answer.sums[static_cast<std::size_t>(k)], -quantised.network.layers[2].shift - 8);
+        greatest_error = std::max(greatest_error, std::abs(integer - static_cast<double>(q(k))));
+      }
+    }
+    const Agreement result = agreement(parameters, decisions);
+    EXPECT_GE(result.clear_agreement, 0.995);
+    EXPECT_LE(result.mean_regret, 1e-3);
+    EXPECT_LT(greatest_error, 0.05);
+    EXPECT_LT(quantised.layers[2].mean_error, 0.01);
+  }
+}
+
+TEST(Quantise, ScalesAreTheGreatestThatHold) {
+  const Quantised quantised = quantise(some_parameters(1), some_states(2, 500));
+  // Activations: one more bit would leave int16, with the margin; the weights: or the proof would fail.
+  for (std::size_t l = 0; l < 2; ++l) {
+    EXPECT_GT(2.0 * 1.1 * quantised.layers[l].range_used, 0.999);
+  }
+  for (const LayerReport& layer : quantised.layers) {
+    EXPECT_LT(layer.headroom_bits, 1.05);
+  }
+}
+
+TEST(Quantise, WeightsBeyondEveryScaleAreRefused) {
+  EXPECT_THROW((void)quantise(Parameters::Constant(1e9F), some_states(1, 10)), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace striker::training

@@ -1,0 +1,137 @@
+// The RCS state: what the corrected equations promise, and that the printed ones break it.
+#include "state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace striker::training {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Observation some_observation(std::mt19937& random) {
+  std::uniform_real_distribution<double> place(-4.0, 4.0);
+  std::uniform_real_distribution<double> speed(-3.0, 3.0);
+  std::uniform_real_distribution<double> angle(-pi, pi);
+  return {.robot = {place(random), place(random), angle(random)},
+          .robot_velocity_m_s = {speed(random), speed(random)},
+          .ball = {{place(random), place(random)}, {speed(random), speed(random)}}};
+}
+
+sil::Vec2 turned(sil::Vec2 v, double angle) {
+  return {std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
+}
+
+// The same situation elsewhere on the field: turned about the origin, then shifted.
+Observation moved(const Observation& seen, double angle, sil::Vec2 shift) {
+  const sil::Vec2 robot = turned({seen.robot.x_m, seen.robot.y_m}, angle);
+  const sil::Vec2 ball = turned(seen.ball.position_m, angle);
+  return {.robot = {robot.x + shift.x, robot.y + shift.y, wrap_angle_rad(seen.robot.heading_rad + angle)},
+          .robot_velocity_m_s = turned(seen.robot_velocity_m_s, angle),
+          .ball = {{ball.x + shift.x, ball.y + shift.y}, turned(seen.ball.velocity_m_s, angle)}};
+}
+
+double greatest_difference(const RcsState& a, const RcsState& b) {
+  return std::max({std::abs(a.ball_x_m - b.ball_x_m), std::abs(a.ball_y_m - b.ball_y_m),
+                   std::abs(a.robot_speed_m_s - b.robot_speed_m_s), std::abs(a.ball_vx_m_s - b.ball_vx_m_s),
+                   std::abs(a.ball_vy_m_s - b.ball_vy_m_s),
+                   std::abs(wrap_angle_rad(a.ball_angle_rad - b.ball_angle_rad))});
+}
+
+TEST(State, CorrectedIsTheSameEverywhereOnTheField) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-5.0, 5.0);
+  for (int i = 0; i < 10'000; ++i) {
+    const Observation here = some_observation(random);
+    const Observation there = moved(here, shift(random), {shift(random), shift(random)});
+    ASSERT_LT(
+        greatest_difference(rcs_state(here, Equations::corrected), rcs_state(there, Equations::corrected)),
+        1e-9);
+  }
+}
+
+TEST(State, PrintedDependsOnThePlace) {
+  std::mt19937 random(2);
+  const Observation here = some_observation(random);
+  const Observation there = moved(here, 0.0, {1.0, 0.0});
+  const RcsState a = rcs_state(here, Equations::printed);
+  const RcsState b = rcs_state(there, Equations::printed);
+  // The translation goes into the velocity: one metre becomes one metre per second.
+  EXPECT_NEAR(std::hypot(a.ball_vx_m_s - b.ball_vx_m_s, a.ball_vy_m_s - b.ball_vy_m_s), 1.0, 1e-9);
+  EXPECT_NEAR(a.ball_x_m, b.ball_x_m, 1e-9);
+}
+
+TEST(State, PrintedSpeedKnowsNoBackward) {
+  Observation forward;
+  forward.robot_velocity_m_s = {2.0, 0.0};
+  Observation backward;
+  backward.robot_velocity_m_s = {-2.0, 0.0};
+  EXPECT_EQ(rcs_state(forward, Equations::printed).robot_speed_m_s, 4.0);
+  EXPECT_EQ(rcs_state(backward, Equations::printed).robot_speed_m_s, 4.0);
+  EXPECT_EQ(rcs_state(forward, Equations::corrected).robot_speed_m_s, 2.0);
+  EXPECT_EQ(rcs_state(backward, Equations::corrected).robot_speed_m_s, -2.0);
+}
+
+TEST(State, OnlyTheCorrectedAngleWraps) {
+  Observation seen;
+  seen.robot.heading_rad = -3.0;
+  seen.ball.velocity_m_s = {-1.0, 0.1};
+  const double difference = std::atan2(0.1, -1.0) + 3.0;
+  EXPECT_NEAR(rcs_state(seen, Equations::printed).ball_angle_rad, difference, 1e-12);
+  EXPECT_NEAR(rcs_state(seen, Equations::corrected).ball_angle_rad, difference - 2.0 * pi, 1e-12);
+}
+
+TEST(State, AnglesWrapIntoTheHalfOpenCircle) {
+  EXPECT_EQ(wrap_angle_rad(pi), pi);
+  EXPECT_EQ(wrap_angle_rad(-pi), pi);
+  for (double angle = -20.0; angle < 20.0; angle += 0.01) {
+    const double wrapped = wrap_angle_rad(angle);
+    ASSERT_GT(wrapped, -pi);
+    ASSERT_LE(wrapped, pi);
+    ASSERT_NEAR(std::cos(wrapped), std::cos(angle), 1e-12);
+    ASSERT_NEAR(std::sin(wrapped), std::sin(angle), 1e-12);
+  }
+}
+
+TEST(State, ABallAtRestHasADirection) {
+  Observation seen;
+  seen.robot.heading_rad = 1.0;
+  seen.ball.velocity_m_s = {0.0, 0.99 * rest_speed_m_s};
+  EXPECT_EQ(rcs_state(seen, Equations::corrected).ball_angle_rad, 0.0);
+  seen.ball.velocity_m_s = {0.0, 1.01 * rest_speed_m_s};
+  EXPECT_NEAR(rcs_state(seen, Equations::corrected).ball_angle_rad, pi / 2 - 1.0, 1e-12);
+}
+
+TEST(State, TheMirrorIsTheMirroredWorld) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 1'000; ++i) {
+    Observation seen = some_observation(random);
+    const Features features_here = features(rcs_state(seen, Equations::corrected));
+    seen.robot.y_m *= -1.0;
+    seen.robot.heading_rad *= -1.0;
+    seen.robot_velocity_m_s.y *= -1.0;
+    seen.ball.position_m.y *= -1.0;
+    seen.ball.velocity_m_s.y *= -1.0;
+    ASSERT_LT((mirrored(features_here) - features(rcs_state(seen, Equations::corrected))).norm(), 1e-5F);
+  }
+}
+
+TEST(State, RawUnitsComeBackToTheCount) {
+  std::mt19937 random(4);
+  const auto draw = [&random](int limit) {
+    return std::uniform_int_distribution<int>(-limit, limit)(random);
+  };
+  for (int i = 0; i < 10'000; ++i) {
+    const RawState raw{draw(16'000'000), draw(16'000'000), draw(5'000),
+                       draw(8'000),      draw(8'000),      draw(32'767)};
+    ASSERT_EQ(raw_state(state_of(raw)), raw);
+  }
+  EXPECT_EQ(raw_state({.ball_angle_rad = pi})[5], -32768);
+  EXPECT_EQ(raw_state({.ball_x_m = 1.0, .robot_speed_m_s = -2.55}), (RawState{1'000'000, 0, -2550, 0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace striker::training
