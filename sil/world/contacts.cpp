@@ -5,11 +5,6 @@
 namespace striker::sil {
 namespace {
 
-// Each contact of a step is softer than the one before by this share. Left and right of a robot are else
-// exactly alike, and on such ties ODE's solver gives up ("LCP internal error, s <= 0") and leaves the forces
-// incomplete, in about 4 of 100,000 steps.
-constexpr double tie_break = 1e-6;
-
 constexpr double shortest_axis = 1e-6;
 
 }  // namespace
@@ -37,6 +32,7 @@ std::span<const dContactGeom> Contacts::collide(dGeomID a, dGeomID b, Pair pair,
   const std::span<const dContactGeom> geoms(found_.data(), static_cast<std::size_t>(found));
   for (const dContactGeom& geom : geoms) {
     contact.geom = geom;
+    // Each contact of a step a little softer than the one before.
     contact.surface.soft_cfm = soft_cfm * (1.0 + tie_break * ++count_);
     dJointID joint = dJointCreateContact(world_, joints_.get(), &contact);
     dJointAttach(joint, dGeomGetBody(geom.g1), dGeomGetBody(geom.g2));

@@ -111,7 +111,7 @@ void place(Robot& robot, const Pose& pose) {
 void set_servo(Robot& robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm) {
   dJointID hinge = robot.hinges[index(wheel)];
   dJointSetHingeParam(hinge, dParamVel, rim_speed_m_s / wheel_radius_m);
-  dJointSetHingeParam(hinge, dParamFMax, torque_ceiling_Nm);
+  dJointSetHingeParam(hinge, dParamFMax, torque_ceiling_Nm * (wheel == Wheel::left ? 1.0 : 1.0 - tie_break));
   robot.torques_Nm[index(wheel)] = 0.0;
 }
 

@@ -130,6 +130,12 @@ TEST(Determinism, TheSolverNeverGivesUp) {
   for (std::uint64_t i = 0; i < 500; ++i) {
     static_cast<void>(play(coarse, draw_kick(1, i, PoseMode::origin), random_actions(i)));
   }
+  for (std::uint64_t i = 0; i < 1'000; ++i) {
+    Random random(1, i, 0);
+    coarse.place_robot(0, {.x_m = 0.0, .y_m = 0.0, .heading_rad = random.uniform(-3.0, 3.0)});
+    drive_straight(coarse, random.uniform(2.1, 2.3));
+    run(coarse, 0.030);
+  }
   World fine(kick_world(0.001));
   for (std::uint64_t i = 0; i < 100; ++i) {
     static_cast<void>(play(fine, draw_kick(1, i, PoseMode::origin), Actions(kick_decisions, 0)));
