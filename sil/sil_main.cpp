@@ -188,6 +188,7 @@ int play_kicks(const Options& options) {
   progress.end();
 
   const KickRun run{.seed = options.seed,
+                    .first_episode = options.first,
                     .plant = options.plant,
                     .pose = options.pose,
                     .policy = runner.policy(),

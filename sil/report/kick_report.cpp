@@ -13,7 +13,7 @@
 namespace striker::sil {
 namespace {
 
-nlohmann::ordered_json row_json(std::size_t episode, const KickOutcome& outcome) {
+nlohmann::ordered_json row_json(std::uint64_t episode, const KickOutcome& outcome) {
   nlohmann::ordered_json row = {{"episode", episode},          {"contact", outcome.contact},
                                 {"contact_decision", nullptr}, {"theta_contact_rad", nullptr},
                                 {"v_contact_m_s", nullptr},    {"front_face", nullptr},
@@ -40,7 +40,7 @@ nlohmann::ordered_json run_json(const KickRun& run) {
   const KickSummary summary = summarise(run.episodes);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < run.episodes.size(); ++i) {
-    rows.push_back(row_json(i, run.episodes[i]));
+    rows.push_back(row_json(run.first_episode + i, run.episodes[i]));
   }
   return {{"episodes", run.episodes.size()},
           {"mean_reward", summary.mean_reward},
@@ -61,7 +61,7 @@ std::string cell(bool known, double value, int decimals) {
   return known ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
-std::string row_text(std::size_t episode, const KickOutcome& outcome) {
+std::string row_text(std::uint64_t episode, const KickOutcome& outcome) {
   constexpr double degrees = 180.0 / std::numbers::pi;
   return fmt::format(
       "{:>7}  {:>7}  {:>9}  {:>9}  {:>8.3f}  {:>10}  {:>10}  {:>6}\n", episode,
@@ -106,7 +106,7 @@ std::string format_table(const KickRun& run, bool rows) {
     text += fmt::format("{:>7}  {:>7}  {:>9}  {:>9}  {:>8}  {:>10}  {:>10}  {:>6}\n", "episode", "contact",
                         "theta_deg", "v_m_s", "reward", "ball_m_s", "ball_deg", "kicked");
     for (std::size_t i = 0; i < run.episodes.size(); ++i) {
-      text += row_text(i, run.episodes[i]);
+      text += row_text(run.first_episode + i, run.episodes[i]);
     }
   }
   const KickSummary summary = summarise(run.episodes);

@@ -12,9 +12,10 @@ namespace striker::sil {
 
 struct KickRun {
   std::uint64_t seed = 0;
-  std::string plant;   // "servo" or "drive"
-  std::string pose;    // "origin" or "anywhere"
-  std::string policy;  // the identity of the policy or model, 8 hexadecimal digits
+  std::uint64_t first_episode = 0;  // the number of the first row
+  std::string plant;                // "servo" or "drive"
+  std::string pose;                 // "origin" or "anywhere"
+  std::string policy;               // the identity of the policy or model, 8 hexadecimal digits
   double simulated_s = 0.0;
   double wall_s = 0.0;
   std::vector<KickOutcome> episodes;

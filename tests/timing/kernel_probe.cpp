@@ -1,0 +1,49 @@
+// Runs the kernel on one set of 200 inputs, for a tool that counts its instructions:
+//   kernel_probe random|zero|high|low|mixed
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <string_view>
+
+#include "core/network.hpp"
+#include STRIKER_POLICY_HEADER
+
+namespace {
+
+using namespace striker::core;
+
+constexpr const auto& policy = striker::policy::trained;
+using Raw = std::array<std::int32_t, policy.inputs>;
+
+std::int32_t draw(std::string_view set, std::mt19937& random) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  if (set == "random") {
+    return static_cast<std::int32_t>(random()) >> (random() % 31);
+  }
+  if (set == "mixed") {
+    return random() % 2 == 0 ? Limits::min() : Limits::max();
+  }
+  return set == "high" ? Limits::max() : set == "low" ? Limits::min() : 0;
+}
+
+}  // namespace
+
+// Counted by its name.
+extern "C" [[gnu::noinline]] int counted_inference(const Raw& raw) {
+  return infer(policy, raw).action;
+}
+
+int main(int argc, char** argv) {
+  const std::string_view set = argc > 1 ? argv[1] : "zero";
+  std::mt19937 random(1);
+  int actions = 0;
+  for (int i = 0; i < 200; ++i) {
+    Raw raw{};
+    for (std::int32_t& element : raw) {
+      element = draw(set, random);
+    }
+    actions += counted_inference(raw);
+  }
+  std::printf("%d\n", actions);
+  return 0;
+}
