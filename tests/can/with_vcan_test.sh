@@ -50,9 +50,11 @@ words=(plain 'two words' "it's" '"quoted"' $'new\nline' '' '$HOME' 'a=b' 'back\s
 check "arguments" cmp <("${run[@]}" printf '<%s>' "${words[@]}") <(printf '<%s>' "${words[@]}")
 
 export STRIKER_TEST=$'a "value"\n of two lines '
+say() { printf '%s' "$1"; }
+export -f say
 cd "$work/a folder"
-"${run[@]}" bash -c 'pwd; printf "%s" "$STRIKER_TEST"; echo hello >file; ip -brief link show up dev vcan0 >link' >../out
-check "directory and environment" cmp ../out <(pwd && printf '%s' "$STRIKER_TEST")
+"${run[@]}" bash -c 'pwd; say "$STRIKER_TEST"; echo hello >file; ip -brief link show up dev vcan0 >link' >../out
+check "directory and environment" cmp ../out <(pwd && say "$STRIKER_TEST")
 check "files it writes are there" test "$(<file)" = hello
 check "vcan0 is up" grep -q vcan0 link
 
