@@ -58,7 +58,7 @@ check "directory and environment" cmp ../out <(pwd && say "$STRIKER_TEST")
 check "files it writes are there" test "$(<file)" = hello
 check "vcan0 is up" grep -q vcan0 link
 
-"${run[@]}" bash -c 'trap "echo caught; exit 9" TERM; : >started; while true; do sleep 0.1; done' >../out &
+"${run[@]}" bash -c 'trap "echo caught; exit 9" TERM; : >started; while true; do sleep 0.1; done' >../out 2>../err &
 until [[ -e started ]]; do sleep 0.1; done
 check "processes are found by their mark" test -n "$(marked_processes)"
 kill -s TERM $!
