@@ -146,6 +146,22 @@ TEST(Ball, MeetsTheRobotsFacesAndTellsTheNormal) {
   }
 }
 
+// mu g, and the damping besides.
+TEST(Ball, KickedItSlidesAndTheFloorSlowsIt) {
+  World world(kick_world(0.001));
+  world.place_robot(0, {});
+  world.place_ball({.position_m = {1.0, 0.0}, .velocity_m_s = {}});
+  drive_straight(world, 2.55);
+  while (world.ball().velocity_m_s.x == 0.0) {
+    world.step();
+  }
+  run(world, 0.1);
+  const double before_m_s = world.ball().velocity_m_s.x;
+  run(world, 0.1);
+  const double after_m_s = world.ball().velocity_m_s.x;
+  EXPECT_NEAR((before_m_s - after_m_s) / 0.1, 0.1 * 9.81 + 0.223 * before_m_s, 0.1);
+}
+
 TEST(Ball, AGoalkeeperGivesLessBackThanAForward) {
   const auto returned_m_s = [](Role role) {
     World world({.robots = {role}, .walls = false, .step_s = 0.010});

@@ -75,6 +75,16 @@ TEST(Determinism, APlacedWorldIsAsNew) {
   }
 }
 
+TEST(Determinism, APlacedRobotForgetsItsContact) {
+  World world(kick_world(0.010));
+  world.place_robot(0, {});
+  world.place_ball({.position_m = {0.11, 0.0}, .velocity_m_s = {}});
+  world.step();
+  ASSERT_TRUE(world.ball_contact(0));
+  world.place_robot(0, {});
+  EXPECT_FALSE(world.ball_contact(0));
+}
+
 TEST(Determinism, WorldsDoNotTouchEachOther) {
   const WorldConfig config{.robots = {Role::forward, Role::goalkeeper}, .walls = true, .step_s = 0.010};
   World alone(config);

@@ -98,6 +98,27 @@ TEST(Driving, WallsStopARobot) {
   }
 }
 
+TEST(Driving, RobotsStopEachOther) {
+  World world({.robots = {Role::forward, Role::forward}, .walls = false, .step_s = 0.010});
+  world.place_robot(0, {.x_m = -0.5, .y_m = 0.0, .heading_rad = 0.0});
+  world.place_robot(1, {.x_m = 0.5, .y_m = 0.0, .heading_rad = std::numbers::pi});
+  drive(world, 0, 1.0, 1.0, 0.4);
+  drive(world, 1, 1.0, 1.0, 0.4);
+  run(world, 2.0);
+  EXPECT_GT(world.robot_pose(1).x_m - world.robot_pose(0).x_m, 0.9 * robot_side_m);
+}
+
+TEST(Driving, APlacedRobotStandsStill) {
+  World world(kick_world(0.010));
+  drive_straight(world, 2.55);
+  run(world, 0.5);
+  world.place_robot(0, {.x_m = 1.0, .y_m = 2.0, .heading_rad = 0.5});
+  run(world, 2.0);
+  EXPECT_NEAR(world.robot_pose(0).x_m, 1.0, 1e-6);
+  EXPECT_NEAR(world.robot_pose(0).y_m, 2.0, 1e-6);
+  EXPECT_NEAR(world.robot_pose(0).heading_rad, 0.5, 1e-6);
+}
+
 TEST(Driving, RolesDifferInSpeed) {
   for (const Role role : {Role::goalkeeper, Role::defender, Role::forward}) {
     const RobotSpec spec = robot_spec(role);

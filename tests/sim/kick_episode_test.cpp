@@ -169,6 +169,8 @@ TEST(KickEpisode, TheSameEpisodeAnywhereGivesTheSameReward) {
     ASSERT_EQ(origin.contact, anywhere.contact) << i;
     EXPECT_NEAR(origin.reward, anywhere.reward, 1e-3) << i;
     EXPECT_EQ(origin.front_face, anywhere.front_face) << i;
+    EXPECT_NEAR(origin.ball_speed_m_s, anywhere.ball_speed_m_s, 1e-3) << i;
+    EXPECT_NEAR(std::remainder(origin.ball_angle_rad - anywhere.ball_angle_rad, 2.0 * pi), 0.0, 1e-3) << i;
     contacts += origin.contact ? 1 : 0;
   }
   EXPECT_GT(contacts, 50);

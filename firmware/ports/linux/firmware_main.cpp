@@ -17,7 +17,7 @@ struct Options {
   std::string can;
   std::string clock = "sync";
   unsigned sync_timeout_ms = 2000;
-  unsigned overrun_limit = 100;
+  unsigned overrun_limit = 500;
   int priority = 80;
 };
 
