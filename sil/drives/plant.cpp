@@ -5,13 +5,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "world/robot_specs.hpp"
+
 namespace striker::sil {
 
 namespace {
 
 constexpr std::array wheels = {Wheel::left, Wheel::right};
 
-constexpr double torque_ceiling_Nm = 0.4;  // a forward robot's motor (AI World Cup)
+constexpr double torque_ceiling_Nm = robot_spec(Role::forward).max_wheel_torque_Nm;
 
 class ServoPlant final : public Plant {
  public:
@@ -77,7 +79,7 @@ class DrivePlant final : public Plant {
   };
 
   static constexpr double step_s = 0.001;
-  static constexpr double count_m = 2.0 * std::numbers::pi * 0.040 / 16384.0;
+  static constexpr double count_m = 2.0 * std::numbers::pi * wheel_radius_m / 16384.0;
   static constexpr double current_loop_gain = 0.6321205588285577;  // 1 - exp(-1 ms / 1 ms)
 
   std::size_t robot_;

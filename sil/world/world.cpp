@@ -68,7 +68,7 @@ struct World::Impl {
 
   void collide_robot(Robot& robot);
   void collide_ball();
-  [[nodiscard]] Vec2 ball_slip_m_s() const;
+  [[nodiscard]] Vec2 ball_friction_axis() const;
   void collide_ball_with(Robot& robot);
   void step();
 
@@ -118,15 +118,18 @@ void World::Impl::collide_robot(Robot& robot) {
   }
 }
 
-// Along the slip the pyramid's force is that of Coulomb's cone, in every direction on the field.
-Vec2 World::Impl::ball_slip_m_s() const {
+// Along the slip the pyramid's force is that of Coulomb's cone, in every direction on the field. A rolling
+// ball has no slip before the step in which something hits it: then its movement gives the direction.
+Vec2 World::Impl::ball_friction_axis() const {
+  constexpr double rolling_m_s = 1e-3;
   const dReal* velocity = dBodyGetLinearVel(ball);
   const dReal* spin = dBodyGetAngularVel(ball);
-  return {velocity[0] - ball_radius_m * spin[1], velocity[1] + ball_radius_m * spin[0]};
+  const Vec2 slip{velocity[0] - ball_radius_m * spin[1], velocity[1] + ball_radius_m * spin[0]};
+  return std::hypot(slip.x, slip.y) > rolling_m_s ? slip : Vec2{velocity[0], velocity[1]};
 }
 
 void World::Impl::collide_ball() {
-  contacts.collide(ball_geom.get(), field.floor.get(), Pair::floor_ball, ball_slip_m_s());
+  contacts.collide(ball_geom.get(), field.floor.get(), Pair::floor_ball, ball_friction_axis());
   const dReal* position = dBodyGetPosition(ball);
   if (has_walls && near_wall(position[0], position[1], ball_radius_m)) {
     for (const GeomHandle& wall : field.walls) {
