@@ -146,9 +146,14 @@ TEST(Determinism, TheSolverNeverGivesUp) {
     drive_straight(coarse, random.uniform(2.1, 2.3));
     run(coarse, 0.030);
   }
+  // Side hits on a standing robot.
   World fine(kick_world(0.001));
-  for (std::uint64_t i = 0; i < 100; ++i) {
-    static_cast<void>(play(fine, draw_kick(1, i, PoseMode::origin), Actions(kick_decisions, 0)));
+  for (std::uint64_t i = 0; i < 1'000; ++i) {
+    Random random(2, i, 0);
+    fine.place_robot(0, {});
+    fine.place_ball({.position_m = {random.uniform(-0.08, 0.08), 0.2},
+                     .velocity_m_s = {random.uniform(-1.0, 1.0), random.uniform(-3.0, -1.0)}});
+    run(fine, 0.100);
   }
   dSetMessageHandler(before);
   EXPECT_EQ(ode_messages, 0);
