@@ -112,6 +112,7 @@ std::vector<EnvConfig> read_environments(Reader& reader) {
   reader.choice<Equations>("task.equations", equations,
                            {{"corrected", Equations::corrected}, {"printed", Equations::printed}});
   std::vector<EnvConfig> environments;
+  environments.reserve(velocities.size());
   for (const Velocities choice : velocities) {
     environments.push_back({.velocities = choice, .equations = equations});
   }

@@ -65,6 +65,7 @@ std::vector<GoldenVector> golden_vectors(const IntegerNetwork& network, const st
     states.push_back(met[i * met.size() / from_play]);
   }
   std::vector<GoldenVector> goldens;
+  goldens.reserve(states.size());
   for (const RawState& state : states) {
     goldens.push_back({.raw = {state.begin(), state.end()}, .answer = evaluate(network, state)});
   }
@@ -74,6 +75,7 @@ std::vector<GoldenVector> golden_vectors(const IntegerNetwork& network, const st
 Agreement compare(const Parameters& parameters, const IntegerNetwork& network,
                   const std::vector<RawState>& states) {
   std::vector<Decision> decisions;
+  decisions.reserve(states.size());
   for (const RawState& state : states) {
     decisions.push_back({.state = state, .action = static_cast<int>(evaluate(network, state).action)});
   }

@@ -1,3 +1,8 @@
+// GCC 12 warns of a loop inside Eigen that only a batch of one would reach.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Waggressive-loop-optimizations"
+#endif
+
 #include "network.hpp"
 
 #include <cmath>

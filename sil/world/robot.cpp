@@ -34,8 +34,6 @@ void add_body(Robot& robot, dWorldID world) {
   dMassSetBoxTotal(&mass, robot_spec(robot.role).body_mass_kg, robot_side_m, robot_side_m, height_m);
   dBodySetMass(robot.body, &mass);
   dBodySetPosition(robot.body, 0.0, 0.0, centre_of_mass_height_m);
-  // It turns by up to 0.36 rad in a step: too much for ODE's default, linear update of the orientation.
-  dBodySetFiniteRotationMode(robot.body, 1);
 
   robot.box.reset(dCreateBox(nullptr, robot_side_m, robot_side_m, height_m));
   dGeomSetBody(robot.box.get(), robot.body);

@@ -36,7 +36,9 @@ enum class Wheel { left, right };
 struct WorldConfig {
   std::vector<Role> robots = {Role::forward};  // one to ten
   bool walls = true;                           // false: an open floor (the kick task)
-  double step_s = 0.010;                       // contact stiffness and damping are kept the same at any step
+  // Contact stiffness and damping are kept the same at any step. ODE moves a body straight on in a step: fast
+  // turns strain the axles at 10 ms and come out slower (a forward told to turn at 36 rad/s turns at 18).
+  double step_s = 0.010;
 };
 
 class World {

@@ -102,6 +102,7 @@ TEST(Driving, RobotsStopEachOther) {
   World world({.robots = {Role::forward, Role::forward}, .walls = false, .step_s = 0.010});
   world.place_robot(0, {.x_m = -0.5, .y_m = 0.0, .heading_rad = 0.0});
   world.place_robot(1, {.x_m = 0.5, .y_m = 0.0, .heading_rad = std::numbers::pi});
+  world.place_ball({.position_m = {0.0, 3.0}, .velocity_m_s = {}});
   drive(world, 0, 1.0, 1.0, 0.4);
   drive(world, 1, 1.0, 1.0, 0.4);
   run(world, 2.0);

@@ -86,6 +86,26 @@ TEST(KickDraw, TheBallIsTheSameFromEveryPose) {
   EXPECT_GT(widest_heading_rad, 0.99 * std::numbers::pi);
 }
 
+// Correlations of independent draws: five standard deviations.
+TEST(KickDraw, ThePoseTellsNothingOfTheBall) {
+  double x_bearing = 0.0;
+  double heading_bearing = 0.0;
+  double x_speed = 0.0;
+  for (std::uint64_t i = 0; i < draws; ++i) {
+    const Pose robot = draw_kick(3, i, PoseMode::anywhere).robot;
+    const BallState ball = draw_kick(3, i, PoseMode::origin).ball;
+    const double bearing_rad = std::atan2(ball.position_m.y, ball.position_m.x);
+    const double speed_m_s = std::hypot(ball.velocity_m_s.x, ball.velocity_m_s.y);
+    x_bearing += robot.x_m / 3.9 * bearing_rad / std::numbers::pi / draws;
+    heading_bearing += robot.heading_rad * bearing_rad / std::numbers::pi / std::numbers::pi / draws;
+    x_speed += robot.x_m / 3.9 * (speed_m_s - 2.0) / draws;
+  }
+  const double bound = 5.0 / 3.0 / std::sqrt(static_cast<double>(draws));
+  EXPECT_NEAR(x_bearing, 0.0, bound);
+  EXPECT_NEAR(heading_bearing, 0.0, bound);
+  EXPECT_NEAR(x_speed, 0.0, bound);
+}
+
 TEST(KickDraw, SeedsAndEpisodesDiffer) {
   const Vec2 ball = draw_kick(1, 1, PoseMode::origin).ball.position_m;
   EXPECT_NE(ball.x, draw_kick(1, 2, PoseMode::origin).ball.position_m.x);

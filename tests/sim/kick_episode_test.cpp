@@ -21,7 +21,14 @@ KickStart resting_ball(double x_m, double y_m) {
 
 TEST(KickEpisode, WithoutContactItIsWorthMinusFour) {
   World world(kick_world(0.010));
-  const KickOutcome outcome = play(world, resting_ball(0.0, 2.0), forward);
+  KickEpisode episode;
+  episode.begin(world, resting_ball(0.0, 2.0));
+  for (int decision = 0; decision < kick_decisions; ++decision) {
+    episode.step(world);
+    EXPECT_EQ(episode.end_decision(), -0.1);
+  }
+  EXPECT_EQ(episode.end_decision(), 0.0);
+  const KickOutcome& outcome = episode.outcome();
   EXPECT_FALSE(outcome.contact);
   EXPECT_EQ(outcome.contact_decision, -1);
   EXPECT_NEAR(outcome.reward, -4.0, 1e-12);
@@ -155,6 +162,44 @@ TEST(KickEpisode, TheBallIsMeasuredAHundredMillisecondsAfterTheContactStep) {
     EXPECT_EQ(episode.outcome().ball_speed_m_s,
               std::hypot(world.ball().velocity_m_s.x, world.ball().velocity_m_s.y));
   }
+}
+
+TEST(KickEpisode, BeginForgetsTheEpisodeBefore) {
+  World world(kick_world(0.010));
+  KickEpisode episode;
+  episode.begin(world, resting_ball(0.3, 0.0));
+  drive_straight(world, 2.55);
+  for (int i = 0; i < 20; ++i) {
+    episode.step(world);
+  }
+  episode.end_decision();
+  ASSERT_TRUE(episode.outcome().contact);
+  episode.begin(world, resting_ball(0.0, 2.0));
+  EXPECT_FALSE(episode.outcome().contact);
+  EXPECT_EQ(episode.outcome().reward, 0.0);
+  EXPECT_EQ(episode.end_decision(), -0.1);
+}
+
+TEST(KickEpisode, AKickNeedsTheFrontFaceTheDirectionAndTheSpeed) {
+  World world(kick_world(0.010));
+  int kicks = 0;
+  int not_in_front = 0;
+  int astray = 0;
+  int slow = 0;
+  for (std::uint64_t i = 0; i < 1'500; ++i) {
+    const KickOutcome outcome = play(world, draw_kick(5, i, PoseMode::origin), random_actions(i));
+    const bool ahead = std::abs(outcome.ball_angle_rad) <= 15.0 * pi / 180.0;
+    const bool fast = outcome.ball_speed_m_s > 1.0;
+    EXPECT_EQ(outcome.kicked, outcome.ball_measured && outcome.front_face && ahead && fast) << i;
+    kicks += outcome.kicked ? 1 : 0;
+    not_in_front += outcome.ball_measured && !outcome.front_face && ahead && fast ? 1 : 0;
+    astray += outcome.front_face && !ahead && fast ? 1 : 0;
+    slow += outcome.front_face && ahead && !fast ? 1 : 0;
+  }
+  EXPECT_GT(kicks, 0);
+  EXPECT_GT(not_in_front, 0);
+  EXPECT_GT(astray, 0);
+  EXPECT_GT(slow, 0);
 }
 
 // The physics knows no place and no direction; only rounding does.

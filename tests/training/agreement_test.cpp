@@ -29,8 +29,9 @@ TEST(Agreement, TheNetworksOwnChoicesAgree) {
 TEST(Agreement, CountsGapAndRegret) {
   Parameters parameters = Parameters::Zero();
   biases<2>(parameters) << 1.0F, 0.99F, 0.5F;
-  const auto of = [&](std::vector<int> taken) {
+  const auto of = [&](const std::vector<int>& taken) {
     std::vector<Decision> decisions;
+    decisions.reserve(taken.size());
     for (const int action : taken) {
       decisions.push_back({RawState{}, action});
     }

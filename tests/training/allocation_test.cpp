@@ -12,13 +12,15 @@ namespace {
 std::size_t allocations = 0;
 }
 
-// The linker sends every malloc of this program here (--wrap=malloc).
+// The linker sends every malloc of this program here (--wrap=malloc), and gives these names.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" void* __real_malloc(std::size_t size);
 extern "C" void* __wrap_malloc(std::size_t size);
 extern "C" void* __wrap_malloc(std::size_t size) {
   ++allocations;
   return __real_malloc(size);
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 void* operator new(std::size_t size) {
   if (void* block = std::malloc(size)) {

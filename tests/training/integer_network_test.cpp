@@ -116,6 +116,7 @@ TEST(IntegerNetwork, TheFirstBoundIsReached) {
   const IntegerNetwork network{.input_scales = std::vector<InputScale>(6, {.multiplier = 2, .shift = 1}),
                                .layers = {layer(6, weights, {4711}, 0)}};
   std::vector<std::int32_t> input;
+  input.reserve(weights.size());
   for (const std::int16_t weight : weights) {
     input.push_back(weight > 0 ? greatest : least);
   }

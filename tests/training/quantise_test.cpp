@@ -12,6 +12,7 @@ namespace {
 std::vector<RawState> some_states(unsigned seed, int count) {
   std::mt19937 random(seed);
   std::vector<RawState> states;
+  states.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     states.push_back(some_state(random));
   }

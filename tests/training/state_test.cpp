@@ -87,7 +87,8 @@ TEST(State, OnlyTheCorrectedAngleWraps) {
 TEST(State, AnglesWrapIntoTheHalfOpenCircle) {
   EXPECT_EQ(wrap_angle_rad(pi), pi);
   EXPECT_EQ(wrap_angle_rad(-pi), pi);
-  for (double angle = -20.0; angle < 20.0; angle += 0.01) {
+  for (int i = -2000; i < 2000; ++i) {
+    const double angle = 0.01 * i;
     const double wrapped = wrap_angle_rad(angle);
     ASSERT_GT(wrapped, -pi);
     ASSERT_LE(wrapped, pi);
