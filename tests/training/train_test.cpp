@@ -63,8 +63,39 @@ TEST(Train, TheCurveIsTheMovingAverageOfItsRewards) {
     }
     ASSERT_NEAR(training.rows[i].moving_average, sum / static_cast<double>(i + 1 - first), 1e-9);
     ASSERT_LE(training.rows[i].steps, sil::kick_decisions);
-    ASSERT_TRUE(training.rows[i].contact || training.rows[i].steps == sil::kick_decisions);
   }
+}
+
+// Without exploration and learning, training is greedy play with the initial weights: on its own episodes,
+// which no evaluation meets, and up to the contact.
+TEST(Train, PlaysItsOwnEpisodesUpToTheContact) {
+  Config config = short_config(60);
+  config.environments.pop_back();
+  config.exploration = {.epsilon_start = 0.0, .epsilon_end = 0.0, .decay_episodes = 1};
+  config.learner.gradient_steps = 0;
+  int contacts = 0;
+  int unlike_evaluation = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Training training = train(config, seed, go_on);
+    const Parameters parameters = initial_parameters(seed);
+    KickEnv env(config.environments.front());
+    const auto played = [&](std::uint64_t episode) {
+      return play(env, sil::draw_kick(seed, episode, sil::PoseMode::origin), [&](const RcsState& state) {
+        return greedy_action(q_values(parameters, features(state)));
+      });
+    };
+    for (std::size_t i = 0; i < training.rows.size(); ++i) {
+      const EpisodeRow& row = training.rows[i];
+      const sil::KickOutcome outcome = played(training_episodes + i);
+      ASSERT_EQ(row.contact, outcome.contact);
+      ASSERT_EQ(row.reward, outcome.reward);
+      ASSERT_EQ(row.steps, outcome.contact ? outcome.contact_decision + 1 : sil::kick_decisions);
+      contacts += outcome.contact ? 1 : 0;
+      unlike_evaluation += row.reward != played(i).reward ? 1 : 0;
+    }
+  }
+  EXPECT_GT(contacts, 5);
+  EXPECT_GT(unlike_evaluation, 5);
 }
 
 TEST(Train, StopsWhenItIsTold) {
