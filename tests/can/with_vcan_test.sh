@@ -1,7 +1,6 @@
 #!/bin/bash
 # tools/with-vcan: whatever the kernel has, a command runs as if called directly, with a vcan0, and nothing is left.
 # Exits with 0 if all holds, else names what does not.
-# shellcheck disable=SC2016 # the commands' shells expand what stands in single quotes
 set -euo pipefail
 
 with_vcan=$(realpath "${BASH_SOURCE[0]%/*}/../../tools/with-vcan")
