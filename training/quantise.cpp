@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 
 namespace striker::training {
@@ -74,26 +77,56 @@ std::vector<InputScale> input_scales(int exponent) {
   return scales;
 }
 
-IntegerLayer integer_layer(const FloatLayer& layer, int weight_exponent, int input_exponent, int shift) {
+// How the rounding error of one column spreads over the columns after it (Frantar et al. 2023, "GPTQ"): the
+// upper Cholesky factor of the inverse of the inputs' second moments over the calibration states. The last
+// column stands for the bias, whose input is 1.
+Eigen::MatrixXd error_feedback(const Eigen::MatrixXd& inputs) {
+  constexpr double damping = 1e-4;  // of the mean second moment: neurons that calibration hardly met
+  Eigen::MatrixXd extended(inputs.rows() + 1, inputs.cols());
+  extended << inputs, Eigen::RowVectorXd::Ones(inputs.cols());
+  Eigen::MatrixXd moments = extended * extended.transpose() / static_cast<double>(inputs.cols());
+  moments.diagonal().array() += damping * moments.diagonal().mean();
+  return moments.inverse().llt().matrixU();
+}
+
+// Rounds the weights column by column; what each loses, the columns after it and the bias make good. Nothing
+// if a number does not fit its type.
+std::optional<IntegerLayer> integer_layer(const FloatLayer& layer, const Eigen::MatrixXd& feedback,
+                                          int weight_exponent, int input_exponent, int shift) {
+  const Eigen::Index columns = layer.weights.cols();
+  Eigen::MatrixXd left(layer.weights.rows(), columns + 1);
+  left << layer.weights, layer.biases;
+  left *= std::ldexp(1.0, weight_exponent);
+  Eigen::MatrixXd rounded(left.rows(), columns);
+  for (Eigen::Index column = 0; column < columns; ++column) {
+    rounded.col(column) = left.col(column).array().round().matrix();
+    const Eigen::VectorXd lost = (left.col(column) - rounded.col(column)) / feedback(column, column);
+    left.rightCols(columns - column) -= lost * feedback.row(column).tail(columns - column);
+  }
+  const Eigen::VectorXd biases = (std::ldexp(1.0, input_exponent) * left.col(columns)).array().round();
+  if (rounded.cwiseAbs().maxCoeff() > greatest_weight || biases.cwiseAbs().maxCoeff() > greatest_bias) {
+    return std::nullopt;
+  }
   IntegerLayer integers;
-  integers.inputs = static_cast<std::size_t>(layer.weights.cols());
+  integers.inputs = static_cast<std::size_t>(columns);
   integers.shift = shift;
-  for (Eigen::Index row = 0; row < layer.weights.rows(); ++row) {
-    for (Eigen::Index column = 0; column < layer.weights.cols(); ++column) {
-      const double scaled = std::ldexp(layer.weights(row, column), weight_exponent);
-      integers.weights.push_back(static_cast<std::int16_t>(std::lround(scaled)));
-    }
-    const double scaled = std::ldexp(layer.biases(row), weight_exponent + input_exponent);
-    integers.biases.push_back(static_cast<std::int32_t>(std::lround(scaled)));
+  for (const double weight : rounded.reshaped<Eigen::RowMajor>()) {
+    integers.weights.push_back(static_cast<std::int16_t>(weight));
+  }
+  for (const double bias : biases) {
+    integers.biases.push_back(static_cast<std::int32_t>(bias));
   }
   return integers;
 }
 
 // Appends the layer at the greatest weight scale that passes the proof; returns that scale's exponent.
-int append_layer(IntegerNetwork& network, const FloatLayer& layer, int input_exponent, int output_exponent) {
+int append_layer(IntegerNetwork& network, const FloatLayer& layer, const Eigen::MatrixXd& inputs,
+                 int input_exponent, int output_exponent) {
   const bool hidden = network.layers.size() + 1 < static_cast<std::size_t>(layer_count);
   const int least_shift = hidden ? 1 : 0;
+  const Eigen::MatrixXd feedback = error_feedback(inputs);
   int exponent = exponent_for(layer.weights.cwiseAbs().maxCoeff(), greatest_weight);
+  exponent = std::min(exponent, greatest_shift + output_exponent - input_exponent);
   for (;; --exponent) {
     const int shift = input_exponent + exponent - output_exponent;
     if (shift < least_shift) {
@@ -101,11 +134,11 @@ int append_layer(IntegerNetwork& network, const FloatLayer& layer, int input_exp
           fmt::format("layer {} cannot be quantised: its weights are too large for 32-bit sums",
                       network.layers.size() + 1));
     }
-    const double bias = std::ldexp(layer.biases.cwiseAbs().maxCoeff(), exponent + input_exponent);
-    if (shift > greatest_shift || bias > greatest_bias) {
+    const auto integers = integer_layer(layer, feedback, exponent, input_exponent, shift);
+    if (!integers) {
       continue;
     }
-    network.layers.push_back(integer_layer(layer, exponent, input_exponent, shift));
+    network.layers.push_back(*integers);
     if (bound_layers(network).back().fits()) {
       return exponent;
     }
@@ -153,7 +186,7 @@ Quantised quantise(const Parameters& parameters, std::span<const RawState> calib
     LayerReport report;
     report.activation_exponent = hidden ? activation_exponent(held[l + 1]) : q_fraction_bits;
     report.weight_exponent =
-        append_layer(result.network, layers[l], input_exponent, report.activation_exponent);
+        append_layer(result.network, layers[l], held[l], input_exponent, report.activation_exponent);
     input_exponent = report.activation_exponent;
     result.layers.push_back(report);
   }
