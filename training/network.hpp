@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 #include "state.hpp"
 
@@ -20,8 +21,8 @@ inline constexpr int actions = widths.back();
 // Where layer L begins in the parameters: its weights (outputs x inputs, by columns), then its biases.
 constexpr int layer_offset(int layer) {
   int offset = 0;
-  for (int l = 0; l < layer; ++l) {
-    offset += widths[l] * widths[l + 1] + widths[l + 1];
+  for (std::size_t l = 0; l < static_cast<std::size_t>(layer); ++l) {
+    offset += (widths[l] + 1) * widths[l + 1];
   }
   return offset;
 }
