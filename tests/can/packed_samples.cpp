@@ -50,7 +50,8 @@ void print_samples(std::mt19937& random) {
   for (int i = 0; i < 100; ++i) {
     Message message;
     for (const auto& signal : table.signals) {
-      message.*signal.field = std::uniform_int_distribution<std::int32_t>(signal.minimum, signal.maximum)(random);
+      message.*signal.field =
+          std::uniform_int_distribution<std::int32_t>(signal.minimum, signal.maximum)(random);
     }
     print_sample(message, static_cast<std::uint8_t>(i % 16));
   }
