@@ -20,7 +20,7 @@ class Writer {
   // raw * scale, exactly.
   void write_scaled(std::int64_t raw, const Decimal& scale) {
     std::int64_t digits = raw * scale.digits;
-    int exponent = scale.exponent;
+    std::int32_t exponent = scale.exponent;
     while (exponent < 0 && digits % 10 == 0) {
       digits /= 10;
       ++exponent;

@@ -16,7 +16,7 @@ namespace striker::can {
 // digits * 10^exponent: scales stay exact without floating point.
 struct Decimal {
   std::int64_t digits = 1;
-  std::int8_t exponent = 0;
+  std::int32_t exponent = 0;
 };
 
 struct NamedValue {
@@ -34,7 +34,7 @@ struct Signal {
   std::int32_t minimum;  // raw; a receiver ignores a message with any signal outside
   std::int32_t maximum;
   Decimal scale = {};
-  std::string_view unit = "";
+  std::string_view unit = {};
   std::span<const NamedValue> values = {};
 };
 
