@@ -21,7 +21,7 @@ constexpr std::size_t max_robots = 10;
 // Once in a process, and never closed: worlds come and go at any time.
 void init_ode() {
   static const bool ready = dInitODE2(0) != 0;
-  if (!ready || dAllocateODEDataForThread(dAllocateMaskAll) == 0) {
+  if (!ready || dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) == 0) {
     throw std::runtime_error("ODE cannot be initialised: out of memory");
   }
 }
