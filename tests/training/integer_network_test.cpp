@@ -42,7 +42,7 @@ TEST(IntegerNetwork, RoundsHalvesUpAndCutsAtZero) {
 
 TEST(IntegerNetwork, InputsAreRoundedAndSaturate) {
   const IntegerNetwork network{.input_scales = {{.multiplier = 3, .shift = 2}},
-                               .layers = {layer(1, {1, -1}, {0, 0}, 1), layer(2, {1, 1}, {0, 0}, 0)}};
+                               .layers = {layer(1, {1, -1}, {0, 0}, 1), layer(2, {1, 1}, {0}, 0)}};
   const auto stored = [&](std::int32_t raw) { return layer_values(network, std::vector{raw})[0]; };
   EXPECT_EQ(stored(10), (std::vector<std::int32_t>{4, 0}));   // 7.5 -> 8
   EXPECT_EQ(stored(-10), (std::vector<std::int32_t>{0, 4}));  // -7.5 -> -7, half of it 3.5 -> 4
