@@ -21,18 +21,12 @@ static_assert(identity_of(policy) == policy.identity,
               "STRIKER POLICY: the header was altered after its export: export the model again");
 static_assert(policy.decision_period_ms == decision_period_ticks,
               "STRIKER POLICY: trained at another decision period than this controller's 50 ms");
+static_assert(inputs_are_known(policy),
+              "STRIKER POLICY: an input that this controller does not compute, or too many of them");
 static_assert(Trained::goldens >= 1, "STRIKER POLICY: no golden vector to test the boot with");
 static_assert(std::is_trivially_copyable_v<Controller>);
 
 constexpr std::uint32_t low_31_bits = 0x7FFFFFFF;
-
-std::array<std::int32_t, Trained::inputs> network_input(const RelativeState& state) {
-  std::array<std::int32_t, Trained::inputs> raw{};
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    raw[i] = element_of(state, policy.elements[i]);
-  }
-  return raw;
-}
 
 // The best Q among the actions other than the chosen one, still in the output layer's scale.
 std::int32_t runner_up(const QValues<Trained::actions>& q) {
@@ -56,6 +50,10 @@ bool take_due(Freshness& sent, std::uint32_t tick, std::uint32_t period_ticks) {
 }
 
 }  // namespace
+
+std::span<const StateInput> policy_inputs() {
+  return policy.state;
+}
 
 void Controller::step(const Inputs& inputs, Outputs& outputs) {
   outputs.clear();
@@ -132,6 +130,7 @@ void Controller::supervise_tick(const Requests& requests) {
   if (supervisor_.state == can::State::active && before.state != can::State::active) {
     awaits_first_pair_ = true;
     decision_ = {};
+    history_ = {};
     left_loop_.reset();
     right_loop_.reset();
   }
@@ -151,10 +150,29 @@ void Controller::decide_if_due(bool new_pair, Outputs& outputs) {
   }
 }
 
+void Controller::remember(const RelativeState& state) {
+  if (decision_.number == 0) {
+    history_.fill(state);
+    return;
+  }
+  std::copy_backward(history_.begin(), history_.end() - 1, history_.end());
+  history_.front() = state;
+}
+
 void Controller::decide(bool extrapolated, Outputs& outputs) {
-  const RelativeState state = relative_state(estimator_.at(tick_));
-  const auto q = infer(policy, network_input(state));
-  decision_ = {decision_.number + 1, q.action, extrapolated, state};
+  RelativeState state = relative_state(estimator_.at(tick_));
+  const auto made = static_cast<std::int32_t>(std::min<std::uint32_t>(decision_.number, decisions_a_kick));
+  state.decisions_left = decisions_a_kick - made;
+  remember(state);
+  std::array<std::int32_t, Trained::inputs> raw{};
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    raw[i] = element_of(history_[policy.state[i].decisions_ago], policy.state[i].element);
+  }
+  const auto q = infer(policy, raw);
+  decision_.number += 1;
+  decision_.action = q.action;
+  decision_.extrapolated = extrapolated;
+  std::copy(raw.begin(), raw.end(), decision_.inputs.begin());
   left_set_point_mm_s_ = policy.set_points[q.action].left_mm_s;
   right_set_point_mm_s_ = policy.set_points[q.action].right_mm_s;
   outputs.add(can::pack(can::Decision{.number = static_cast<std::int32_t>((decision_.number - 1) & 0xFFFFU),

@@ -55,8 +55,11 @@ struct DecisionRecord {
   std::uint32_t number = 0;  // decisions since arming
   std::uint8_t action = 0;
   bool extrapolated = false;
-  RelativeState state;
+  std::array<std::int32_t, greatest_inputs> inputs{};  // of the network; as many as `policy_inputs` names
 };
+
+// What the built-in policy reads, in the order of its inputs.
+[[nodiscard]] std::span<const StateInput> policy_inputs();
 
 class Controller {
  public:
@@ -92,6 +95,7 @@ class Controller {
   void run_self_test();
   void supervise_tick(const Requests& requests);
   void decide_if_due(bool new_pair, Outputs& outputs);
+  void remember(const RelativeState& state);
   void decide(bool extrapolated, Outputs& outputs);
   [[nodiscard]] can::WheelCommand drive();
   [[nodiscard]] DriveFacts drive_facts() const;
@@ -113,6 +117,7 @@ class Controller {
   bool awaits_first_pair_ = true;
   std::uint32_t decision_tick_ = 0;
   DecisionRecord decision_;
+  std::array<RelativeState, greatest_look_back + 1> history_{};  // of the decisions, the newest first
   std::int32_t left_set_point_mm_s_ = 0;
   std::int32_t right_set_point_mm_s_ = 0;
   WheelLoop left_loop_;

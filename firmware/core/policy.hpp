@@ -21,13 +21,25 @@ namespace striker::core {
 // State elements a policy can take, in the robot's frame (RCS, the paper's section III), and the unit of the
 // controller's integers.
 enum class StateElement : std::uint8_t {
-  ball_x = 0,       // um
-  ball_y = 1,       // um
-  robot_speed = 2,  // mm/s, signed along the heading
-  ball_vx = 3,      // mm/s, a direction: rotated, not translated
-  ball_vy = 4,      // mm/s
-  ball_angle = 5,   // of the ball's movement: binary angle, 2^16 is the full circle, in [-32768, 32767]
+  ball_x = 0,          // um
+  ball_y = 1,          // um
+  robot_speed = 2,     // mm/s, signed along the heading
+  ball_vx = 3,         // mm/s, a direction: rotated, not translated
+  ball_vy = 4,         // mm/s
+  ball_angle = 5,      // of the ball's movement: binary angle, 2^16 is the full circle, in [-32768, 32767]
+  decisions_left = 6,  // of the 40 that a kick has, counted down from the first one after arming, to 0
 };
+
+// One input of the network: an element as it was so many decisions ago. Before the first decision after
+// arming everything was as at the first.
+struct StateInput {
+  StateElement element;
+  std::uint8_t decisions_ago;  // 0 to greatest_look_back
+};
+
+inline constexpr std::uint8_t greatest_look_back = 4;
+inline constexpr std::size_t greatest_inputs = 32;
+inline constexpr std::int32_t decisions_a_kick = 40;
 
 struct InputScale {
   std::int32_t multiplier;  // 0 < multiplier <= 2^20
@@ -66,7 +78,7 @@ struct Policy {
   std::uint32_t identity;            // of everything below: policy_proof.hpp recomputes it
   std::uint32_t configuration_hash;  // FNV-1a (32 bits) of the training configuration's text
   std::int32_t decision_period_ms;   // the period it was trained at
-  std::array<StateElement, Inputs> elements;
+  std::array<StateInput, Inputs> state;
   std::array<InputScale, Inputs> input_scales;
   Layer<Inputs, Hidden1> layer1;
   Layer<Hidden1, Hidden2> layer2;

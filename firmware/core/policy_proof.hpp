@@ -92,6 +92,17 @@ constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G>& policy) {
   return valid;
 }
 
+// The controller can compute every input.
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
+constexpr bool inputs_are_known(const Policy<I, H1, H2, A, G>& policy) {
+  bool known = I <= greatest_inputs;
+  for (const StateInput& input : policy.state) {
+    known =
+        known && input.element <= StateElement::decisions_left && input.decisions_ago <= greatest_look_back;
+  }
+  return known;
+}
+
 // No input whatever can drive any neuron's 32-bit sum, rounding included, out of range.
 template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
 constexpr bool sums_fit(const Policy<I, H1, H2, A, G>& policy) {
@@ -110,8 +121,9 @@ constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G>& policy) {
   proof::Fnv1a hash;
   hash.add(policy.configuration_hash);
   hash.add(policy.decision_period_ms);
-  for (const StateElement element : policy.elements) {
-    hash.add(static_cast<std::uint8_t>(element));
+  for (const StateInput& input : policy.state) {
+    hash.add(static_cast<std::uint8_t>(input.element));
+    hash.add(input.decisions_ago);
   }
   for (const InputScale& scale : policy.input_scales) {
     hash.add(scale.multiplier);

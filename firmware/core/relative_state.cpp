@@ -48,6 +48,8 @@ std::int32_t element_of(const RelativeState& state, StateElement element) {
       return state.ball_velocity_mm_s.y;
     case StateElement::ball_angle:
       return state.ball_angle;
+    case StateElement::decisions_left:
+      return state.decisions_left;
   }
   return 0;
 }

@@ -16,16 +16,16 @@ namespace striker::policy {
 
 // clang-format off
 inline constexpr core::Policy<6, 64, 64, 3, 16> trained = {
-    .identity = 0xA3FBDD19U,
+    .identity = 0x6A01FDEBU,
     .configuration_hash = 0x986180D3U,
     .decision_period_ms = 50,
-    .elements = {{
-        core::StateElement::ball_x,
-        core::StateElement::ball_y,
-        core::StateElement::robot_speed,
-        core::StateElement::ball_vx,
-        core::StateElement::ball_vy,
-        core::StateElement::ball_angle,
+    .state = {{
+        {.element = core::StateElement::ball_x, .decisions_ago = 0},
+        {.element = core::StateElement::ball_y, .decisions_ago = 0},
+        {.element = core::StateElement::robot_speed, .decisions_ago = 0},
+        {.element = core::StateElement::ball_vx, .decisions_ago = 0},
+        {.element = core::StateElement::ball_vy, .decisions_ago = 0},
+        {.element = core::StateElement::ball_angle, .decisions_ago = 0},
     }},
     .input_scales = {{
         {.multiplier = 549756, .shift = 27},

@@ -2,12 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <span>
+#include <string>
+
 namespace striker::sil {
 
+namespace {
+
+// In the order of core::StateElement.
+constexpr std::array element_names = {"ball_x_um",    "ball_y_um",  "robot_speed_mm_s", "ball_vx_mm_s",
+                                      "ball_vy_mm_s", "ball_angle", "decisions_left"};
+
+}  // namespace
+
 DecisionCsv::DecisionCsv(const std::filesystem::path& file) : file_(file) {
-  file_.write(
-      "episode,decision,before_contact,action,ball_x_um,ball_y_um,robot_speed_mm_s,ball_vx_mm_s,ball_vy_mm_s,"
-      "ball_angle\n");
+  std::string header = "episode,decision,before_contact,action";
+  for (const auto& [element, ago] : core::policy_inputs()) {
+    header += fmt::format(",{}", element_names.at(static_cast<std::size_t>(element)));
+    header += ago > 0 ? fmt::format("@{}", ago) : "";
+  }
+  file_.write(header + "\n");
 }
 
 void DecisionCsv::observe(const core::Controller& controller, std::uint64_t episode, bool before_contact) {
@@ -19,10 +34,9 @@ void DecisionCsv::observe(const core::Controller& controller, std::uint64_t epis
   if (decision.number == 0) {
     return;
   }
-  const core::RelativeState& state = decision.state;
-  file_.write(fmt::format("{},{},{:d},{},{},{},{},{},{},{}\n", episode, decision.number - 1, before_contact,
-                          decision.action, state.ball_um.x, state.ball_um.y, state.robot_speed_mm_s,
-                          state.ball_velocity_mm_s.x, state.ball_velocity_mm_s.y, state.ball_angle));
+  const auto inputs = std::span(decision.inputs).first(core::policy_inputs().size());
+  file_.write(fmt::format("{},{},{:d},{},{}\n", episode, decision.number - 1, before_contact, decision.action,
+                          fmt::join(inputs, ",")));
 }
 
 void DecisionCsv::finish() {
