@@ -24,6 +24,7 @@ struct Options {
   std::uint64_t seed = 0;
   std::string pose = "origin";
   std::string velocities = "true";
+  std::string world = "full";
   std::filesystem::path decisions;
   std::filesystem::path json;
 };
@@ -31,7 +32,8 @@ struct Options {
 int evaluate_play(const Options& options, const Model& model) {
   const sil::PoseMode pose = options.pose == "origin" ? sil::PoseMode::origin : sil::PoseMode::anywhere;
   KickEnv env({.velocities = options.velocities == "true" ? Velocities::exact : Velocities::estimated,
-               .equations = equations_of(model)});
+               .equations = equations_of(model),
+               .world = options.world == "full" ? World::full : World::fast});
   const Choice choose = [&](const RcsState& state) {
     return greedy_action(q_values(model.parameters, features(state)));
   };
@@ -97,6 +99,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--velocities", options.velocities, "what the network sees: true or estimated velocities")
       ->check(CLI::IsMember({"true", "estimated"}))
+      ->capture_default_str();
+  app.add_option("--world", options.world, "full: wheel bodies (the reference); fast: the training's world")
+      ->check(CLI::IsMember({"full", "fast"}))
       ->capture_default_str();
   auto* decisions = app.add_option("--decisions", options.decisions, "CSV file of a controller's decisions");
   app.add_option("--json", options.json, "write the figures to this file");

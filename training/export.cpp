@@ -24,7 +24,7 @@ constexpr std::size_t golden_count = 16;
 // The states before contact of `count` episodes each of greedy and of random play, beginning with `first`.
 std::vector<RawState> met_states(const Parameters& parameters, int first, int count) {
   std::vector<RawState> states;
-  KickEnv env({});
+  KickEnv env({.world = World::full});
   const auto collect = [&](const RcsState& state) {
     if (!env.outcome().contact) {
       states.push_back(raw_state(state));

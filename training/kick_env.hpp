@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <variant>
 
 #include "state.hpp"
 #include "world/kick_task.hpp"
+#include "world/planar_world.hpp"
 #include "world/world.hpp"
 
 namespace striker::training {
@@ -28,9 +30,13 @@ inline constexpr std::uint64_t calibration_episodes = std::uint64_t{1} << 61;
 // vision frames (50 ms apart, exact positions), the robot's from its wheels.
 enum class Velocities { exact, estimated };
 
+// `fast`: sil::PlanarWorld. `full`: sil::World with the wheel bodies, the reference.
+enum class World { fast, full };
+
 struct EnvConfig {
   Velocities velocities = Velocities::exact;
   Equations equations = Equations::corrected;
+  World world = World::fast;
 };
 
 struct StepResult {
@@ -56,7 +62,7 @@ class KickEnv {
   void observe();
 
   EnvConfig config_;
-  sil::World world_;
+  std::variant<sil::PlanarWorld, sil::World> world_;
   sil::KickEpisode episode_;
   sil::Vec2 last_ball_m_;  // one vision frame ago
   RcsState state_;

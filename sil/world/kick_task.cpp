@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "world/field_specs.hpp"
+#include "world/planar_world.hpp"
 #include "world/random.hpp"
 
 namespace striker::sil {
@@ -103,6 +104,7 @@ WorldConfig kick_world(double step_s) {
   return {.robots = {Role::forward}, .walls = false, .step_s = step_s};
 }
 
+template <typename World>
 void KickEpisode::begin(World& world, const KickStart& start) {
   world.place_robot(0, start.robot);
   world.place_ball(start.ball);
@@ -110,6 +112,7 @@ void KickEpisode::begin(World& world, const KickStart& start) {
   target_heading_rad_ = start.robot.heading_rad;
 }
 
+template <typename World>
 void KickEpisode::step(World& world) {
   const Pose robot = world.robot_pose(0);
   const Vec2 robot_velocity = world.robot_velocity_m_s(0);
@@ -157,5 +160,10 @@ double KickEpisode::end_decision() {
   outcome_.reward += reward;
   return reward;
 }
+
+template void KickEpisode::begin(World&, const KickStart&);
+template void KickEpisode::begin(PlanarWorld&, const KickStart&);
+template void KickEpisode::step(World&);
+template void KickEpisode::step(PlanarWorld&);
 
 }  // namespace striker::sil

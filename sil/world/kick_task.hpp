@@ -50,7 +50,10 @@ struct KickOutcome {
 //   begin, then 40 times: (steps of 50 ms in all, end_decision), then steps of 100 ms to see the ball leave.
 class KickEpisode {
  public:
+  // World is sil::World or PlanarWorld.
+  template <typename World>
   void begin(World& world, const KickStart& start);  // places robot and ball
+  template <typename World>
   void step(World& world);
   double end_decision();  // the reward of the decision that ends here
   [[nodiscard]] const KickOutcome& outcome() const { return outcome_; }

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "world/materials.hpp"
+#include "world/ode_world.hpp"
 #include "world/robot_specs.hpp"
 
 namespace striker::sil {
@@ -19,7 +20,6 @@ constexpr std::array<double, 2> skid_places = {skid_offset_m, -skid_offset_m};
 // Standing, the robot sinks in by its weight over the springs of its contacts, two a wheel and one a skid.
 // Placed there, it neither falls nor rises.
 double rest_depth_m(Role role) {
-  constexpr double gravity_m_s2 = 9.81;
   constexpr double contacts = 6.0;
   const RobotSpec spec = robot_spec(role);
   const double weight_N = gravity_m_s2 * (spec.body_mass_kg + 2.0 * spec.wheel_mass_kg);

@@ -1,6 +1,5 @@
 #include "world/world.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -8,55 +7,18 @@
 #include "world/field.hpp"
 #include "world/field_specs.hpp"
 #include "world/materials.hpp"
-#include "world/ode_handles.hpp"
+#include "world/ode_world.hpp"
 #include "world/robot.hpp"
 
 namespace striker::sil {
 namespace {
 
-constexpr double gravity_m_s2 = 9.81;
-constexpr double kept_after_1_s = 0.8;  // of every body's linear and angular velocity
 constexpr std::size_t max_robots = 10;
-
-// Once in a process, and never closed: worlds come and go at any time.
-void init_ode() {
-  static const bool ready = dInitODE2(0) != 0;
-  if (!ready || dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) == 0) {
-    throw std::runtime_error("ODE cannot be initialised: out of memory");
-  }
-}
-
-WorldHandle make_ode_world(double step_s) {
-  init_ode();
-  WorldHandle world(dWorldCreate());
-  const Softness softness = soften(world_softness, step_s);
-  dWorldSetERP(world.get(), softness.erp);
-  dWorldSetCFM(world.get(), softness.cfm);
-  dWorldSetGravity(world.get(), 0.0, 0.0, -gravity_m_s2);
-  dWorldSetDamping(world.get(), 1.0 - std::pow(kept_after_1_s, step_s),
-                   1.0 - std::pow(kept_after_1_s, step_s));
-  dWorldSetLinearDampingThreshold(world.get(), 0.0);
-  dWorldSetAngularDampingThreshold(world.get(), 0.0);
-  return world;
-}
 
 double distance_squared(dBodyID a, dBodyID b) {
   const dReal* p = dBodyGetPosition(a);
   const dReal* q = dBodyGetPosition(b);
   return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]);
-}
-
-// Horizontal, from the robot to the ball. A ball on the robot's roof has no horizontal normal: then the line
-// of centres.
-Vec2 contact_direction(const dContactGeom& contact, dBodyID robot, dBodyID ball) {
-  Vec2 direction{-contact.normal[0], -contact.normal[1]};
-  if (std::hypot(direction.x, direction.y) < 1e-6) {
-    const dReal* from = dBodyGetPosition(robot);
-    const dReal* to = dBodyGetPosition(ball);
-    direction = {to[0] - from[0], to[1] - from[1]};
-  }
-  const double length = std::hypot(direction.x, direction.y);
-  return length > 0.0 ? Vec2{direction.x / length, direction.y / length} : Vec2{1.0, 0.0};
 }
 
 }  // namespace
@@ -68,7 +30,6 @@ struct World::Impl {
 
   void collide_robot(Robot& robot);
   void collide_ball();
-  [[nodiscard]] Vec2 ball_friction_axis() const;
   void collide_ball_with(Robot& robot);
   void step();
 
@@ -78,8 +39,7 @@ struct World::Impl {
   Contacts contacts;
   Field field;
   std::vector<Robot> robots;
-  dBodyID ball;
-  GeomHandle ball_geom;
+  Ball ball;
 };
 
 World::Impl::Impl(const WorldConfig& config)
@@ -88,12 +48,7 @@ World::Impl::Impl(const WorldConfig& config)
       world(make_ode_world(config.step_s)),
       contacts(world.get(), config.step_s),
       field(make_field(config.walls)),
-      ball(dBodyCreate(world.get())),
-      ball_geom(dCreateSphere(nullptr, ball_radius_m)) {
-  dMass mass;
-  dMassSetSphereTotal(&mass, ball_mass_kg, ball_radius_m);
-  dBodySetMass(ball, &mass);
-  dGeomSetBody(ball_geom.get(), ball);
+      ball(make_ball(world.get())) {
   for (const Role role : config.robots) {
     robots.push_back(make_robot(world.get(), role));
   }
@@ -118,39 +73,29 @@ void World::Impl::collide_robot(Robot& robot) {
   }
 }
 
-// Along the slip the pyramid's force is that of Coulomb's cone, in every direction on the field. A rolling
-// ball has no slip before the step in which something hits it: then its movement gives the direction.
-Vec2 World::Impl::ball_friction_axis() const {
-  constexpr double rolling_m_s = 1e-3;
-  const dReal* velocity = dBodyGetLinearVel(ball);
-  const dReal* spin = dBodyGetAngularVel(ball);
-  const Vec2 slip{velocity[0] - ball_radius_m * spin[1], velocity[1] + ball_radius_m * spin[0]};
-  return std::hypot(slip.x, slip.y) > rolling_m_s ? slip : Vec2{velocity[0], velocity[1]};
-}
-
 void World::Impl::collide_ball() {
-  contacts.collide(ball_geom.get(), field.floor.get(), Pair::floor_ball, ball_friction_axis());
-  const dReal* position = dBodyGetPosition(ball);
+  contacts.collide(ball.geom.get(), field.floor.get(), Pair::floor_ball, ball_friction_axis(ball));
+  const dReal* position = dBodyGetPosition(ball.body);
   if (has_walls && near_wall(position[0], position[1], ball_radius_m)) {
     for (const GeomHandle& wall : field.walls) {
-      contacts.collide(ball_geom.get(), wall.get(), Pair::wall_ball);
+      contacts.collide(ball.geom.get(), wall.get(), Pair::wall_ball);
     }
   }
   if (has_walls && position[2] + ball_radius_m > ball_ceiling_m) {
-    contacts.collide(ball_geom.get(), field.ball_ceiling.get(), Pair::wall_ball);
+    contacts.collide(ball.geom.get(), field.ball_ceiling.get(), Pair::wall_ball);
   }
 }
 
 void World::Impl::collide_ball_with(Robot& robot) {
   constexpr double reach_m = robot_reach_m + ball_radius_m;
   robot.ball_contact.reset();
-  if (distance_squared(robot.body, ball) > reach_m * reach_m) {
+  if (distance_squared(robot.body, ball.body) > reach_m * reach_m) {
     return;
   }
   const Pair pair = robot.role == Role::goalkeeper ? Pair::goalkeeper_ball : Pair::body_ball;
-  const auto met = contacts.collide(robot.box.get(), ball_geom.get(), pair);
+  const auto met = contacts.collide(robot.box.get(), ball.geom.get(), pair);
   if (!met.empty()) {
-    robot.ball_contact = contact_direction(met.front(), robot.body, ball);
+    robot.ball_contact = contact_direction(met.front(), robot.body, ball.body);
   }
 }
 
@@ -194,17 +139,7 @@ void World::place_robot(std::size_t robot, const Pose& pose) {
 }
 
 void World::place_ball(const BallState& ball) {
-  // The depth at which the floor's spring carries the ball.
-  constexpr double weight_N = gravity_m_s2 * ball_mass_kg;
-  const double height_m = ball_radius_m - weight_N / spring_N_m(world_softness);
-  const dQuaternion upright = {1.0, 0.0, 0.0, 0.0};
-  dBodyID body = impl_->ball;
-  dBodySetPosition(body, ball.position_m.x, ball.position_m.y, height_m);
-  dBodySetQuaternion(body, upright);
-  dBodySetLinearVel(body, ball.velocity_m_s.x, ball.velocity_m_s.y, 0.0);
-  dBodySetAngularVel(body, -ball.velocity_m_s.y / ball_radius_m, ball.velocity_m_s.x / ball_radius_m, 0.0);
-  dBodySetForce(body, 0.0, 0.0, 0.0);
-  dBodySetTorque(body, 0.0, 0.0, 0.0);
+  place(impl_->ball, ball);
 }
 
 void World::servo_wheel(std::size_t robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm) {
@@ -239,9 +174,7 @@ double World::rim_speed_m_s(std::size_t robot, Wheel wheel) const {
 }
 
 BallState World::ball() const {
-  const dReal* position = dBodyGetPosition(impl_->ball);
-  const dReal* velocity = dBodyGetLinearVel(impl_->ball);
-  return {.position_m = {position[0], position[1]}, .velocity_m_s = {velocity[0], velocity[1]}};
+  return state_of(impl_->ball);
 }
 
 double World::step_s() const {

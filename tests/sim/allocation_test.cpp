@@ -6,6 +6,7 @@
 #include <new>
 
 #include "play.hpp"
+#include "world/planar_world.hpp"
 
 namespace {
 
@@ -43,11 +44,8 @@ void operator delete(void* block, std::size_t /*size*/) noexcept {
 namespace striker::sil {
 namespace {
 
-TEST(Allocation, AWarmWorldStepsWithoutAny) {
-  dSetAllocHandler(counted);
-  dSetReallocHandler(counted_again);
-  dSetFreeHandler(give_back);
-  World world(kick_world(0.010));
+template <typename AnyWorld>
+void expect_none_when_warm(AnyWorld world) {
   const auto episodes = [&world](std::uint64_t first) {
     for (std::uint64_t i = first; i < first + 50; ++i) {
       KickEpisode episode;
@@ -63,6 +61,14 @@ TEST(Allocation, AWarmWorldStepsWithoutAny) {
   allocations = 0;
   episodes(50);
   EXPECT_EQ(allocations, 0U);
+}
+
+TEST(Allocation, AWarmWorldStepsWithoutAny) {
+  dSetAllocHandler(counted);
+  dSetReallocHandler(counted_again);
+  dSetFreeHandler(give_back);
+  expect_none_when_warm(World(kick_world(0.010)));
+  expect_none_when_warm(PlanarWorld(0.010));
 }
 
 }  // namespace

@@ -12,16 +12,19 @@
 
 namespace striker::sil {
 
-inline void drive(World& world, std::size_t robot, double left_m_s, double right_m_s, double ceiling_Nm) {
+template <typename AnyWorld>
+void drive(AnyWorld& world, std::size_t robot, double left_m_s, double right_m_s, double ceiling_Nm) {
   world.servo_wheel(robot, Wheel::left, left_m_s, ceiling_Nm);
   world.servo_wheel(robot, Wheel::right, right_m_s, ceiling_Nm);
 }
 
-inline void drive_straight(World& world, double speed_m_s) {
+template <typename AnyWorld>
+void drive_straight(AnyWorld& world, double speed_m_s) {
   drive(world, 0, speed_m_s, speed_m_s, robot_spec(Role::forward).max_wheel_torque_Nm);
 }
 
-inline void run(World& world, double seconds) {
+template <typename AnyWorld>
+void run(AnyWorld& world, double seconds) {
   const auto steps = std::lround(seconds / world.step_s());
   for (long i = 0; i < steps; ++i) {
     world.step();
@@ -41,7 +44,8 @@ inline Actions random_actions(std::uint64_t episode) {
   return actions;
 }
 
-inline KickOutcome play(World& world, const KickStart& start, const Actions& actions) {
+template <typename AnyWorld>
+KickOutcome play(AnyWorld& world, const KickStart& start, const Actions& actions) {
   const auto steps = std::lround(decision_period_s / world.step_s());
   KickEpisode episode;
   episode.begin(world, start);

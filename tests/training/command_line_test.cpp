@@ -60,7 +60,7 @@ TEST_F(CommandLine, HelpNamesEveryOption) {
     EXPECT_NE(help(STRIKER_TRAIN).find(option), std::string::npos) << option;
   }
   for (const char* option :
-       {"--model", "--episodes", "--seed", "--pose", "--velocities", "--decisions", "--json"}) {
+       {"--model", "--episodes", "--seed", "--pose", "--velocities", "--world", "--decisions", "--json"}) {
     EXPECT_NE(help(STRIKER_EVALUATE).find(option), std::string::npos) << option;
   }
   for (const char* option : {"MODEL", "--output", "--report"}) {

@@ -19,18 +19,23 @@ sil::KickStart start_of(std::uint64_t episode) {
   return sil::draw_kick(5, episode, sil::PoseMode::origin);
 }
 
+void expect_the_same_alone_and_after_others(const EnvConfig& config) {
+  KickEnv busy(config);
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    play(busy, start_of(i), scripted);
+  }
+  KickEnv fresh(config);
+  const auto late = play(busy, start_of(200), scripted);
+  const auto alone = play(fresh, start_of(200), scripted);
+  EXPECT_EQ(late.reward, alone.reward);
+  EXPECT_EQ(late.ball_speed_m_s, alone.ball_speed_m_s);
+  EXPECT_EQ(late.theta_contact_rad, alone.theta_contact_rad);
+}
+
 TEST(KickEnv, AnEpisodeIsTheSameAloneAndAfterOthers) {
-  for (const Velocities velocities : {Velocities::exact, Velocities::estimated}) {
-    KickEnv busy({.velocities = velocities});
-    for (std::uint64_t i = 0; i < 200; ++i) {
-      play(busy, start_of(i), scripted);
-    }
-    KickEnv fresh({.velocities = velocities});
-    const auto late = play(busy, start_of(200), scripted);
-    const auto alone = play(fresh, start_of(200), scripted);
-    EXPECT_EQ(late.reward, alone.reward);
-    EXPECT_EQ(late.ball_speed_m_s, alone.ball_speed_m_s);
-    EXPECT_EQ(late.theta_contact_rad, alone.theta_contact_rad);
+  for (const World world : {World::fast, World::full}) {
+    expect_the_same_alone_and_after_others({.velocities = Velocities::exact, .world = world});
+    expect_the_same_alone_and_after_others({.velocities = Velocities::estimated, .world = world});
   }
 }
 
@@ -63,6 +68,24 @@ TEST(KickEnv, PlayMeasuresEveryContact) {
     const auto outcome = play(env, start_of(i), scripted);
     EXPECT_EQ(outcome.contact, outcome.ball_measured) << i;
   }
+}
+
+// What the fast world teaches holds in the full one (bounds: tests/sim/planar_world_test.cpp).
+TEST(KickEnv, BothWorldsTellTheSameEpisode) {
+  KickEnv fast({.world = World::fast});
+  KickEnv full({.world = World::full});
+  int contacts = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const auto a = play(fast, start_of(i), scripted);
+    const Features seen = features(fast.state());
+    const auto b = play(full, start_of(i), scripted);
+    EXPECT_EQ(a.contact_decision, b.contact_decision) << i;
+    EXPECT_NEAR(a.reward, b.reward, 3e-3) << i;
+    EXPECT_LT((seen - features(full.state())).norm(), a.contact ? 0.3F : 1e-3F) << i;
+    EXPECT_EQ(fast.simulated_s(), full.simulated_s());
+    contacts += a.contact ? 1 : 0;
+  }
+  EXPECT_GT(contacts, 10);
 }
 
 // Before the contact nothing but damping acts on the ball: positions 50 ms apart tell its mean velocity, at

@@ -1,0 +1,88 @@
+#include "world/ode_world.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "world/field_specs.hpp"
+#include "world/materials.hpp"
+
+namespace striker::sil {
+namespace {
+
+constexpr double kept_after_1_s = 0.8;
+
+void init_ode() {
+  static const bool ready = dInitODE2(0) != 0;
+  if (!ready || dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) == 0) {
+    throw std::runtime_error("ODE cannot be initialised: out of memory");
+  }
+}
+
+}  // namespace
+
+double kept_in_step(double step_s) {
+  return std::pow(kept_after_1_s, step_s);
+}
+
+WorldHandle make_ode_world(double step_s) {
+  init_ode();
+  WorldHandle world(dWorldCreate());
+  const Softness softness = soften(world_softness, step_s);
+  dWorldSetERP(world.get(), softness.erp);
+  dWorldSetCFM(world.get(), softness.cfm);
+  dWorldSetGravity(world.get(), 0.0, 0.0, -gravity_m_s2);
+  dWorldSetDamping(world.get(), 1.0 - kept_in_step(step_s), 1.0 - kept_in_step(step_s));
+  dWorldSetLinearDampingThreshold(world.get(), 0.0);
+  dWorldSetAngularDampingThreshold(world.get(), 0.0);
+  return world;
+}
+
+Ball make_ball(dWorldID world) {
+  Ball ball{.body = dBodyCreate(world), .geom = GeomHandle(dCreateSphere(nullptr, ball_radius_m))};
+  dMass mass;
+  dMassSetSphereTotal(&mass, ball_mass_kg, ball_radius_m);
+  dBodySetMass(ball.body, &mass);
+  dGeomSetBody(ball.geom.get(), ball.body);
+  return ball;
+}
+
+void place(const Ball& ball, const BallState& state) {
+  // The depth at which the floor's spring carries the ball.
+  constexpr double weight_N = gravity_m_s2 * ball_mass_kg;
+  const double height_m = ball_radius_m - weight_N / spring_N_m(world_softness);
+  const dQuaternion upright = {1.0, 0.0, 0.0, 0.0};
+  dBodySetPosition(ball.body, state.position_m.x, state.position_m.y, height_m);
+  dBodySetQuaternion(ball.body, upright);
+  dBodySetLinearVel(ball.body, state.velocity_m_s.x, state.velocity_m_s.y, 0.0);
+  dBodySetAngularVel(ball.body, -state.velocity_m_s.y / ball_radius_m, state.velocity_m_s.x / ball_radius_m,
+                     0.0);
+  dBodySetForce(ball.body, 0.0, 0.0, 0.0);
+  dBodySetTorque(ball.body, 0.0, 0.0, 0.0);
+}
+
+BallState state_of(const Ball& ball) {
+  const dReal* position = dBodyGetPosition(ball.body);
+  const dReal* velocity = dBodyGetLinearVel(ball.body);
+  return {.position_m = {position[0], position[1]}, .velocity_m_s = {velocity[0], velocity[1]}};
+}
+
+Vec2 ball_friction_axis(const Ball& ball) {
+  constexpr double rolling_m_s = 1e-3;
+  const dReal* velocity = dBodyGetLinearVel(ball.body);
+  const dReal* spin = dBodyGetAngularVel(ball.body);
+  const Vec2 slip{velocity[0] - ball_radius_m * spin[1], velocity[1] + ball_radius_m * spin[0]};
+  return std::hypot(slip.x, slip.y) > rolling_m_s ? slip : Vec2{velocity[0], velocity[1]};
+}
+
+Vec2 contact_direction(const dContactGeom& contact, dBodyID robot, dBodyID ball) {
+  Vec2 direction{-contact.normal[0], -contact.normal[1]};
+  if (std::hypot(direction.x, direction.y) < 1e-6) {
+    const dReal* from = dBodyGetPosition(robot);
+    const dReal* to = dBodyGetPosition(ball);
+    direction = {to[0] - from[0], to[1] - from[1]};
+  }
+  const double length = std::hypot(direction.x, direction.y);
+  return length > 0.0 ? Vec2{direction.x / length, direction.y / length} : Vec2{1.0, 0.0};
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,38 @@
+// What every ODE world here has: gravity, damping, softness, and the ball.
+#pragma once
+
+#include "world/ode_handles.hpp"
+#include "world/world.hpp"
+
+namespace striker::sil {
+
+inline constexpr double gravity_m_s2 = 9.81;
+
+// Damping: the share of its linear and angular velocity that a body keeps in a step. Of 1 s it keeps 0.8. ODE
+// damps last: a body moves with the solved velocity, then loses this share of it.
+[[nodiscard]] double kept_in_step(double step_s);
+
+// An empty world. ODE is initialised once in a process and never closed: worlds come and go at any time.
+[[nodiscard]] WorldHandle make_ode_world(double step_s);
+
+struct Ball {
+  dBodyID body = nullptr;
+  GeomHandle geom;
+};
+
+[[nodiscard]] Ball make_ball(dWorldID world);
+
+// On the floor, rolling without slip.
+void place(const Ball& ball, const BallState& state);
+[[nodiscard]] BallState state_of(const Ball& ball);
+
+// For the friction pyramid under the ball. Along the slip the pyramid's force is that of Coulomb's cone, in
+// every direction on the field. A rolling ball has no slip before the step in which something hits it: then
+// its movement gives the direction.
+[[nodiscard]] Vec2 ball_friction_axis(const Ball& ball);
+
+// The contact's horizontal unit normal, from the robot to the ball. A ball on the robot's roof has none: then
+// the line of centres.
+[[nodiscard]] Vec2 contact_direction(const dContactGeom& contact, dBodyID robot, dBodyID ball);
+
+}  // namespace striker::sil

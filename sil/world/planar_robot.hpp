@@ -1,0 +1,57 @@
+// A forward on the plane: one body on two driven wheels, in closed form. Nothing is in its way.
+//
+// Each wheel is a velocity servo with a torque ceiling, at the rim a force: it does what reaches the
+// set-point in this step, and no more than ceiling / wheel radius, nor than the tyre's grip (mu 3 times half
+// the weight). Tyres do not slip, along or across. What the forces push is the whole mass and the wheels'
+// spin (solid cylinders, half a wheel's mass each at the rim): 1.5 + 2 (0.1 + 0.05) = 1.8 kg, 11.1 m/s^2 from
+// 0.4 N m a wheel.
+//
+// One step, in ODE's order: new speeds from the forces, the body moves straight on with them, then damping.
+// In the step after a turn the tyres bend the velocity, which points along the old heading, into the new one
+// and keep its share along it. A wheel's movement and spin turn likewise, and lose the same share.
+//
+// Left out: the tyres' softness (they creep 0.1 mm/s at full torque) and width, and the body's pitch. What
+// that costs is measured in tests/sim/planar_world_test.cpp.
+#pragma once
+
+#include <array>
+
+#include "world/world.hpp"
+
+namespace striker::sil {
+
+struct WheelServo {
+  double rim_speed_m_s = 0.0;
+  double torque_ceiling_Nm = 0.0;
+};
+using WheelServos = std::array<WheelServo, 2>;  // in the order of Wheel
+
+struct PlanarRobot {
+  Pose pose;
+  Vec2 heading{1.0, 0.0};  // the unit vector of pose.heading_rad
+  Vec2 velocity_m_s;
+  double yaw_rate_rad_s = 0.0;
+  double turned_cos = 1.0;  // of the angle that the last step turned
+};
+
+inline constexpr double planar_mass_kg = 1.8;
+// Body (a box) and wheels about the vertical axis, which no turn changes; wheels' movement and spin.
+inline constexpr double planar_own_inertia_kgm2 =
+    1.5 * (0.15 * 0.15 + 0.15 * 0.15) / 12.0 + 2.0 * 0.1 * (3.0 * 0.04 * 0.04 + 0.004 * 0.004) / 12.0;
+inline constexpr double planar_wheel_inertia_kgm2 = 2.0 * 0.15 * 0.07 * 0.07;
+inline constexpr double planar_inertia_kgm2 = planar_own_inertia_kgm2 + planar_wheel_inertia_kgm2;
+inline constexpr double planar_grip_N = 3.0 * 9.81 * 1.7 / 2.0;  // of one tyre
+
+[[nodiscard]] PlanarRobot planar_robot(const Pose& pose);  // at rest
+
+// `kept` is the share of the velocity that damping leaves, kept_in_step(step_s).
+void step(PlanarRobot& robot, const WheelServos& servos, double step_s, double kept);
+
+// The largest force of a wheel at its rim.
+[[nodiscard]] double rim_force_limit_N(const WheelServo& servo);
+
+// Speed along the heading, signed.
+[[nodiscard]] double speed_m_s(const PlanarRobot& robot);
+[[nodiscard]] double rim_speed_m_s(const PlanarRobot& robot, Wheel wheel);
+
+}  // namespace striker::sil
