@@ -77,9 +77,29 @@ void write_message(Writer& out, const Layout<Message, Signals>& message) {
   out << "\n";
 }
 
-void write_attribute(Writer& out, std::string_view name, const MessageInfo& info, std::int64_t value) {
-  if (value != 0) {
-    out << "BA_ \"" << name << "\" BO_ " << info.id << " " << value << ";\n";
+// A whole-number attribute of a message, and what a message that does not name it has.
+struct Attribute {
+  std::string_view name;
+  std::int64_t absent;
+  std::int64_t (*value)(const MessageInfo&);
+};
+
+// The first three have the names and meanings of Vector's interaction layer; times in ms.
+constexpr std::array<Attribute, 6> attributes = {{
+    {"GenMsgCycleTime", 0, [](const MessageInfo& info) { return std::int64_t{info.period_ms}; }},
+    {"GenMsgDelayTime", 0, [](const MessageInfo& info) { return std::int64_t{info.traffic.distance_ms}; }},
+    {"GenMsgTimeout", 0, [](const MessageInfo& info) { return std::int64_t{info.timeout_ms}; }},
+    {"Burst", 1, [](const MessageInfo& info) { return std::int64_t{info.traffic.burst}; }},
+    {"Deadline", 0, [](const MessageInfo& info) { return std::int64_t{info.traffic.deadline_ms}; }},
+    {"E2EDataId", 0, [](const MessageInfo& info) { return std::int64_t{info.data_id}; }},
+}};
+
+void write_attributes(Writer& out, const MessageInfo& info) {
+  for (const Attribute& attribute : attributes) {
+    const std::int64_t value = attribute.value(info);
+    if (value != attribute.absent) {
+      out << "BA_ \"" << attribute.name << "\" BO_ " << info.id << " " << value << ";\n";
+    }
   }
 }
 
@@ -109,17 +129,13 @@ void print_dbc(PutText put, void* context) {
   for_each_layout([&](const auto& message) {
     out << "CM_ BO_ " << message.info.id << " \"" << message.info.comment << "\";\n";
   });
-  for (const std::string_view name : {"GenMsgCycleTime", "GenMsgTimeout", "E2EDataId"}) {
-    out << "BA_DEF_ BO_ \"" << name << "\" INT 0 65535;\n";
+  for (const Attribute& attribute : attributes) {
+    out << "BA_DEF_ BO_ \"" << attribute.name << "\" INT 0 65535;\n";
   }
-  for (const std::string_view name : {"GenMsgCycleTime", "GenMsgTimeout", "E2EDataId"}) {
-    out << "BA_DEF_DEF_ \"" << name << "\" 0;\n";
+  for (const Attribute& attribute : attributes) {
+    out << "BA_DEF_DEF_ \"" << attribute.name << "\" " << attribute.absent << ";\n";
   }
-  for_each_layout([&](const auto& message) {
-    write_attribute(out, "GenMsgCycleTime", message.info, message.info.period_ms);
-    write_attribute(out, "GenMsgTimeout", message.info, message.info.timeout_ms);
-    write_attribute(out, "E2EDataId", message.info, message.info.data_id);
-  });
+  for_each_layout([&](const auto& message) { write_attributes(out, message.info); });
   for_each_layout([&](const auto& message) { write_values(out, message); });
 }
 

@@ -45,6 +45,25 @@ inline constexpr std::array<std::string_view, 5> node_names = {"Controller", "Dr
 
 inline constexpr std::uint16_t unprotected = 0;
 
+// What a bus analysis needs to know beyond the period (see sil/budget/response_time.hpp).
+struct Traffic {
+  std::uint16_t distance_ms = 0;  // shortest time from one frame to the next; 0: the period
+  std::uint8_t burst = 1;         // burst - 1 frames more than one a period may come, as on changes
+  std::uint16_t deadline_ms = 0;  // from queueing to reception; 0: the period, or the distance of events
+};
+
+constexpr Traffic on_events(std::uint16_t distance_ms) {
+  return {.distance_ms = distance_ms};
+}
+
+constexpr Traffic on_changes(std::uint16_t distance_ms, std::uint8_t burst) {
+  return {.distance_ms = distance_ms, .burst = burst};
+}
+
+constexpr Traffic due_within(std::uint16_t deadline_ms) {
+  return {.deadline_ms = deadline_ms};
+}
+
 struct MessageInfo {
   std::string_view name;
   std::uint16_t id;
@@ -54,6 +73,7 @@ struct MessageInfo {
   std::uint16_t timeout_ms;  // a receiver's freshness limit; 0: none
   std::uint16_t data_id;     // E2E data ID, or `unprotected`
   std::string_view comment;
+  Traffic traffic = {};
 };
 
 template <class Message, std::size_t Signals>
@@ -83,12 +103,14 @@ constexpr bool range_is_representable(const Signal<Message>& signal) {
 
 }  // namespace detail
 
-// Signals fit the length, do not overlap each other or the E2E bits, and their ranges fit their bits.
+// Signals fit the length, do not overlap each other or the E2E bits, and their ranges fit their bits; a
+// period or a distance bounds how often the message comes.
 template <class Message>
 constexpr bool layout_is_sound() {
   const auto& [info, signals] = layout<Message>;
   std::uint64_t taken = info.data_id == unprotected ? 0 : detail::bit_mask(12);
-  bool sound = info.id <= 0x7FF && info.length >= 1 && info.length <= 8;
+  bool sound = info.id <= 0x7FF && info.length >= 1 && info.length <= 8 && info.traffic.burst >= 1 &&
+               (info.period_ms > 0 || info.traffic.distance_ms > 0);
   for (const auto& signal : signals) {
     const std::uint64_t bits = detail::bit_mask(signal.bits) << signal.first_bit;
     sound = sound && signal.bits >= 1 && signal.first_bit + signal.bits <= 8 * info.length &&

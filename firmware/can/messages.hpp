@@ -2,7 +2,9 @@
 // checks, is verified by the compiler, and prints the DBC (`striker-dbc`).
 //
 // Classic CAN 2.0A, 1 Mbit/s, one bus per robot. Identifiers go by function, so that priority does too.
-// Fields are raw counts; their names carry the unit of a count.
+// `striker-bus-budget` shows from this table whether every deadline is met. Status and FaultReport come on
+// changes too, at most one a tick; a picture may bring its decision 5 ticks early, and has to come within
+// that window. Fields are raw counts; their names carry the unit of a count.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +16,7 @@
 
 namespace striker::can {
 
-inline constexpr std::int32_t protocol_version = 1;
+inline constexpr std::int32_t protocol_version = 2;
 
 // ---- numbers on the wire -------------------------------------------------------------------------------
 
@@ -132,8 +134,9 @@ struct Decision {
 
 struct Timing {
   std::int32_t lateness_max_us = not_available;   // since the last timing frame
-  std::int32_t execution_max_us = not_available;  // of one step
+  std::int32_t execution_max_us = not_available;  // of one tick: receive, step, send
   std::int32_t overruns = not_available;          // periods missed since boot; stays at 65534
+  std::int32_t latency_max_us = not_available;    // from a frame's reception to the command that follows it
 };
 
 struct Heartbeat {
@@ -162,12 +165,14 @@ inline constexpr std::int32_t greatest_31_bits = std::numeric_limits<std::int32_
 
 template <>
 inline constexpr auto layout<EmergencyStop> = Layout<EmergencyStop, 1>{
-    {"EmergencyStop", 0x010, 2, Node::operator_, 0, 0, 0x5A10, "Latches the emergency stop fault: torque 0."},
+    {"EmergencyStop", 0x010, 2, Node::operator_, 0, 0, 0x5A10, "Latches the emergency stop fault: torque 0.",
+     on_events(10)},
     {{{"source", &EmergencyStop::source, 12, 4, false, 0, 1, {}, "", stop_source_names}}}};
 
 template <>
 inline constexpr auto layout<FaultReport> = Layout<FaultReport, 2>{
-    {"FaultReport", 0x020, 7, Node::controller, 100, 0, 0x5A20, "At the fault, then while it is latched."},
+    {"FaultReport", 0x020, 7, Node::controller, 100, 0, 0x5A20, "At the fault, then while it is latched.",
+     on_changes(2, 2)},
     {{{"code", &FaultReport::code, 16, 8, false, 0, 9, {}, "", fault_names},
       {"tick", &FaultReport::tick, 24, 31, false, 0, greatest_31_bits, units::one, "ms"}}}};
 
@@ -177,9 +182,10 @@ inline constexpr auto layout<Sync> = Layout<Sync, 1>{
     {{{"tick", &Sync::tick, 16, 31, false, 0, greatest_31_bits, units::one, "ms"}}}};
 
 template <>
-inline constexpr auto layout<ModeCommand> = Layout<ModeCommand, 1>{
-    {"ModeCommand", 0x040, 2, Node::operator_, 0, 0, 0x5A40, "Arm, disarm, or clear the latched fault."},
-    {{{"mode", &ModeCommand::mode, 12, 4, false, 0, 2, {}, "", mode_names}}}};
+inline constexpr auto layout<ModeCommand> =
+    Layout<ModeCommand, 1>{{"ModeCommand", 0x040, 2, Node::operator_, 0, 0, 0x5A40,
+                            "Arm, disarm, or clear the latched fault.", on_events(10)},
+                           {{{"mode", &ModeCommand::mode, 12, 4, false, 0, 2, {}, "", mode_names}}}};
 
 template <>
 inline constexpr auto layout<WheelCommand> = Layout<WheelCommand, 5>{
@@ -200,7 +206,8 @@ inline constexpr auto layout<WheelState> = Layout<WheelState, 3>{
 
 template <>
 inline constexpr auto layout<VisionPose> = Layout<VisionPose, 4>{
-    {"VisionPose", 0x070, 8, Node::vision, 50, 150, 0x5A70, "The robot, as the camera sees it."},
+    {"VisionPose", 0x070, 8, Node::vision, 50, 150, 0x5A70, "The robot, as the camera sees it.",
+     due_within(5)},
     {{{"frame", &VisionPose::frame, 12, 4, false, 0, 15},
       {"x", &VisionPose::x_quarter_mm, 16, 16, true, -32768, 32767, units::quarter, "mm"},
       {"y", &VisionPose::y_quarter_mm, 32, 16, true, -32768, 32767, units::quarter, "mm"},
@@ -208,26 +215,28 @@ inline constexpr auto layout<VisionPose> = Layout<VisionPose, 4>{
 
 template <>
 inline constexpr auto layout<VisionBall> = Layout<VisionBall, 3>{
-    {"VisionBall", 0x080, 6, Node::vision, 50, 150, 0x5A80, "The ball in the same picture."},
+    {"VisionBall", 0x080, 6, Node::vision, 50, 150, 0x5A80, "The ball in the same picture.", due_within(5)},
     {{{"frame", &VisionBall::frame, 12, 4, false, 0, 15},
       {"x", &VisionBall::x_quarter_mm, 16, 16, true, -32768, 32767, units::quarter, "mm"},
       {"y", &VisionBall::y_quarter_mm, 32, 16, true, -32768, 32767, units::quarter, "mm"}}}};
 
 template <>
-inline constexpr auto layout<Status> = Layout<Status, 8>{
-    {"Status", 0x100, 8, Node::controller, 10, 100, 0x5B00, "State, latched fault, ignored frames."},
-    {{{"state", &Status::state, 12, 4, false, 0, 4, {}, "", state_names},
-      {"fault", &Status::fault, 16, 8, false, 0, 9, {}, "", fault_names},
-      {"wrong_length", &Status::wrong_length, 24, 8, false, 0, 255},
-      {"wrong_crc", &Status::wrong_crc, 32, 8, false, 0, 255},
-      {"wrong_counter", &Status::wrong_counter, 40, 8, false, 0, 255},
-      {"out_of_range", &Status::out_of_range, 48, 8, false, 0, 255},
-      {"vision_ready", &Status::vision_ready, 56, 1, false, 0, 1},
-      {"wheels_ready", &Status::wheels_ready, 57, 1, false, 0, 1}}}};
+inline constexpr auto layout<Status> =
+    Layout<Status, 8>{{"Status", 0x100, 8, Node::controller, 10, 100, 0x5B00,
+                       "State, latched fault, ignored frames.", on_changes(1, 3)},
+                      {{{"state", &Status::state, 12, 4, false, 0, 4, {}, "", state_names},
+                        {"fault", &Status::fault, 16, 8, false, 0, 9, {}, "", fault_names},
+                        {"wrong_length", &Status::wrong_length, 24, 8, false, 0, 255},
+                        {"wrong_crc", &Status::wrong_crc, 32, 8, false, 0, 255},
+                        {"wrong_counter", &Status::wrong_counter, 40, 8, false, 0, 255},
+                        {"out_of_range", &Status::out_of_range, 48, 8, false, 0, 255},
+                        {"vision_ready", &Status::vision_ready, 56, 1, false, 0, 1},
+                        {"wheels_ready", &Status::wheels_ready, 57, 1, false, 0, 1}}}};
 
 template <>
 inline constexpr auto layout<Decision> = Layout<Decision, 5>{
-    {"Decision", 0x110, 7, Node::controller, 50, 0, unprotected, "What the Q network chose."},
+    {"Decision", 0x110, 7, Node::controller, 50, 0, unprotected, "What the Q network chose.",
+     on_changes(45, 2)},
     {{{"number", &Decision::number, 0, 16, false, 0, 65535},
       {"action", &Decision::action, 16, 4, false, 0, 15},
       {"extrapolated", &Decision::extrapolated, 20, 1, false, 0, 1},
@@ -235,12 +244,13 @@ inline constexpr auto layout<Decision> = Layout<Decision, 5>{
       {"next_q", &Decision::next_q_256th, 40, 16, true, -32768, 32767, units::one_256th}}}};
 
 template <>
-inline constexpr auto layout<Timing> = Layout<Timing, 3>{
-    {"Timing", 0x120, 6, Node::controller, 100, 0, unprotected,
+inline constexpr auto layout<Timing> = Layout<Timing, 4>{
+    {"Timing", 0x120, 8, Node::controller, 100, 0, unprotected,
      "The port's clock; not available in lockstep."},
     {{{"lateness_max", &Timing::lateness_max_us, 0, 16, false, 0, 65535, units::one, "us", measured_names},
       {"execution_max", &Timing::execution_max_us, 16, 16, false, 0, 65535, units::one, "us", measured_names},
-      {"overruns", &Timing::overruns, 32, 16, false, 0, 65535, units::one, "", measured_names}}}};
+      {"overruns", &Timing::overruns, 32, 16, false, 0, 65535, units::one, "", measured_names},
+      {"latency_max", &Timing::latency_max_us, 48, 16, false, 0, 65535, units::one, "us", measured_names}}}};
 
 template <>
 inline constexpr auto layout<Heartbeat> = Layout<Heartbeat, 1>{

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "can/codec.hpp"
 #include "ports/linux/can_socket.hpp"
@@ -20,10 +21,12 @@ using Clock = std::chrono::steady_clock;
 constexpr std::array<std::uint16_t, 1> tool_receives = {can::layout<can::Status>.info.id};
 
 // An operator's tool starts with any counter: of two frames in a row, the second always follows the first.
+// The bus budget counts on their distance.
 template <class Message>
 void send_twice(linux_port::CanSocket& socket, const Message& message) {
   can::SendCounter counter;
   socket.send(can::send(message, counter));
+  std::this_thread::sleep_for(std::chrono::milliseconds(can::layout<Message>.info.traffic.distance_ms));
   socket.send(can::send(message, counter));
 }
 

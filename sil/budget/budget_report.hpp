@@ -1,0 +1,30 @@
+// A bus budget as text for a terminal and as JSON.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "budget/decision_deadline.hpp"
+#include "budget/response_time.hpp"
+
+namespace striker::sil {
+
+struct BusBudget {
+  std::string source;  // where the messages come from
+  std::int64_t bitrate = 1'000'000;
+  double errors_per_s = 0.0;
+  std::vector<BusMessage> messages;  // in the order of priority
+  std::vector<MessageResponse> responses;
+  std::optional<DecisionDeadline> decision;
+
+  [[nodiscard]] std::vector<std::string> missed() const;  // names of the messages that miss their deadline
+};
+
+[[nodiscard]] std::string format_table(const BusBudget& budget);
+
+// Throws std::runtime_error that names the file and the way out.
+void write_json(const BusBudget& budget, const std::filesystem::path& file);
+
+}  // namespace striker::sil

@@ -1,0 +1,38 @@
+// The messages that a bus budget is made for: those of the message table, or of a DBC file.
+//
+// From a DBC: messages with 11-bit identifiers of up to 8 bytes, and the attributes GenMsgCycleTime (period),
+// GenMsgDelayTime (shortest distance) and Deadline, all in ms, and Burst, as `striker-dbc` writes them.
+// Without a period it is the distance; with a distance but no Burst the period is the distance, because
+// nothing else bounds frames on changes; without Deadline it is the period.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "budget/response_time.hpp"
+
+namespace striker::sil {
+
+// Jitter 0.
+[[nodiscard]] std::vector<BusMessage> table_messages();
+
+// Jitter 0. `default_distance_ms` (period and distance) is for messages with neither a period nor a distance;
+// 0: they are an error. Throws std::runtime_error with one line that names the file, what is wrong in it, and
+// the way out.
+[[nodiscard]] std::vector<BusMessage> read_dbc(const std::filesystem::path& file,
+                                               std::int64_t default_distance_ms);
+
+// The message with this name, or nullptr.
+[[nodiscard]] const BusMessage* find(const std::vector<BusMessage>& messages, const std::string& name);
+
+// How late senders queue their frames, at most.
+struct QueueingJitter {
+  std::int64_t controller_ns = 0;  // lateness of the tick and the step; the controller sends `WheelCommand`
+  std::int64_t others_ns = 0;
+};
+
+void set_jitter(std::vector<BusMessage>& messages, const QueueingJitter& jitter);
+
+}  // namespace striker::sil

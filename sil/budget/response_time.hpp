@@ -1,0 +1,65 @@
+// Worst-case response times on a classic CAN bus: the corrected analysis of R. I. Davis, A. Burns, R. J.
+// Bril, J. J. Lukkien, "Controller Area Network (CAN) schedulability analysis: Refuted, revisited and
+// revised", Real-Time Systems 35 (2007). The analysis of 1994 looks at a message's first instance alone; a
+// later one in the same busy period may be worse. For message m, with hp(m) the messages of higher priority:
+//
+//   C_m     bits of the longest frame times the bit time
+//   B_m     the longest frame of lower priority: it cannot be interrupted
+//   n_k(t)  frames of k that can be queued within t: ceil((t + J_k) / T_k)
+//   E(t)    errors and what is sent again: (floor(t / T_error) + 1) times 31 bits and the longest frame of
+//           hp(m) and m
+//   t       the busy period: t = B_m + E(t) + sum over hp(m) and m of n_k(t) C_k
+//   w_q     instance q starts: w_q = B_m + E(w_q + C_m) + q C_m + sum over hp(m) of n_k(w_q + one bit) C_k
+//   R_m     the greatest of J_m + w_q + C_m - q T_m over all instances q of the busy period
+//
+// Messages that come on changes too have a shortest distance D <= T and a burst b, with b - 1 frames more
+// than one a period: n_k(t) = min(ceil((t + J_k) / D_k), ceil((t + J_k) / T_k) + b_k - 1), and instance q
+// comes no earlier than max(q D_m, (q - b_m + 1) T_m). With b = 1 this is the paper's model.
+//
+// A response runs from the event (`jitter` before the latest queueing) to the end of the intermission after
+// the frame. Every time is a whole number of ns.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace striker::sil {
+
+struct BusMessage {
+  std::string name;
+  std::string sender;
+  std::uint16_t id = 0;  // unique
+  std::int64_t bytes = 0;
+  std::int64_t period_ns = 0;
+  std::int64_t distance_ns = 0;  // 0 < distance <= period
+  std::int64_t burst = 1;
+  std::int64_t jitter_ns = 0;  // from the event to the queueing, at most
+  std::int64_t deadline_ns = 0;
+};
+
+struct BusAssumptions {
+  std::int64_t bit_ns = 1000;
+  std::int64_t error_distance_ns = 0;  // shortest time between two errors; 0: there are none
+};
+
+struct MessageResponse {
+  std::int64_t frame_ns = 0;  // C
+  // R. Nothing if messages up to this priority, with the errors, leave the bus no idle time: then frames may
+  // wait for ever.
+  std::optional<std::int64_t> response_ns;
+  std::int64_t worst_instance = 0;     // q
+  std::int64_t first_instance_ns = 0;  // of q = 0: the 1994 analysis
+};
+
+// In the order of `messages`.
+[[nodiscard]] std::vector<MessageResponse> analyse(const std::vector<BusMessage>& messages,
+                                                   const BusAssumptions& assumptions);
+
+[[nodiscard]] bool meets_deadline(const BusMessage& message, const MessageResponse& response);
+
+// The share of the bus's time that longest frames take, one a period, errors left out.
+[[nodiscard]] double utilisation(const std::vector<BusMessage>& messages, std::int64_t bit_ns);
+
+}  // namespace striker::sil

@@ -1,0 +1,86 @@
+#!/usr/bin/python3
+"""striker-bus-budget: table, exit status, JSON, errors. Usage: budget_command_line_test.py BIN_DIRECTORY"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN = sys.argv.pop(1)
+
+
+def budget(*arguments):
+    return subprocess.run([os.path.join(BIN, "striker-bus-budget"), *arguments], capture_output=True, text=True)
+
+
+class BudgetCommandLine(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory()
+        self.addCleanup(self.directory.cleanup)
+
+    def file(self, name, text=None):
+        path = os.path.join(self.directory.name, name)
+        if text is not None:
+            with open(path, "w", encoding="ascii") as stream:
+                stream.write(text)
+        return path
+
+    def test_every_deadline_is_met_at_1_mbit_s(self):
+        result = budget("--json", self.file("a.json"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("every deadline is met", result.stdout)
+        with open(self.file("a.json"), encoding="utf-8") as stream:
+            summary = json.load(stream)
+        self.assertEqual(len(summary["messages"]), 13)
+        self.assertEqual(summary["missed"], [])
+        self.assertTrue(0.3 < summary["utilisation"] < 0.5)
+        decision = summary["decision"]
+        parts = ("picture_us", "phase_us", "lateness_us", "step_us", "command_us")
+        self.assertEqual(decision["total_us"], sum(decision[part] for part in parts))
+        for message in summary["messages"]:
+            self.assertEqual(message["margin_us"], message["deadline_us"] - message["response_us"])
+
+    def test_at_500_kbit_s_the_misses_are_named(self):
+        result = budget("--bitrate", "500000")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("deadline missed by WheelCommand, WheelState, VisionPose, VisionBall", result.stdout)
+        self.assertEqual(sum(line.endswith("MISSED") for line in result.stdout.splitlines()), 4)
+
+    def test_at_250_kbit_s_there_is_no_bound(self):
+        result = budget("--bitrate", "250000")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no bound", result.stdout)
+        self.assertNotIn("picture to torque", result.stdout)
+
+    def test_the_dbc_gives_the_same_budget(self):
+        dbc = self.file("striker.dbc", subprocess.run([os.path.join(BIN, "striker-dbc")], capture_output=True,
+                                                      text=True, check=True).stdout)
+        for more in ([], ["--lockstep", "--bitrate", "500000"], ["--errors-per-s", "10"]):
+            own, read = budget(*more), budget("--dbc", dbc, *more)
+            self.assertEqual(own.stdout.splitlines()[1:], read.stdout.splitlines()[1:])
+            self.assertEqual(own.returncode, read.returncode)
+
+    def test_errors_and_jitter_lengthen_responses(self):
+        def response(*arguments):
+            budget(*arguments, "--json", self.file("b.json"))
+            with open(self.file("b.json"), encoding="utf-8") as stream:
+                return [message["response_us"] for message in json.load(stream)["messages"]]
+        for more in (["--errors-per-s", "10"], ["--jitter-us", "200"], ["--step-us", "90"], ["--lateness-us", "300"]):
+            self.assertGreater(sum(response(*more)), sum(response()), more)
+
+    def test_errors_say_what_is_wrong(self):
+        for arguments, word in ((["--bitrate", "83333"], "'83333'"), (["--bitrate", "2000000"], "1000000"),
+                                (["--dbc", "/nonexistent.dbc"], "/nonexistent.dbc"),
+                                (["--json", "/nonexistent/a.json"], "/nonexistent/a.json"),
+                                (["--jitter-us", "-1"], "--jitter-us"),
+                                (["--lockstep", "--dbc", self.file("a.dbc", "BO_ 1 M: 8 A\n"),
+                                  "--default-distance-ms", "5"], "--lockstep")):
+            result = budget(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn(word, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
