@@ -5,14 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "bus/bit_rate.hpp"
 #include "bus/candump_log.hpp"
 #include "bus/in_process_link.hpp"
 #include "bus/socketcan_link.hpp"
+#include "bus/timed_link.hpp"
 #include "kick/decision_csv.hpp"
 #include "kick/kick_run.hpp"
 #include "ports/linux/real_time.hpp"
@@ -31,6 +34,9 @@ struct Options {
   std::uint64_t first = 0;
   std::uint64_t seed = 1;
   bool real_time = false;
+  std::int64_t bitrate = 0;
+  double step_us = 50.0;
+  double vision_phase_us = 0.0;
   unsigned answer_timeout_ms = 1000;
   unsigned start_timeout_ms = 10000;
   std::string json;
@@ -58,6 +64,17 @@ void define(CLI::App& kick, Options& options) {
                   "number of the first episode: each is a function of seed and number")
       ->capture_default_str();
   kick.add_option("--seed", options.seed, "of the episodes")->capture_default_str();
+  auto* bitrate = kick.add_option("--bitrate", options.bitrate,
+                                  "lockstep: frames take bus time at this rate, in bit/s, and arbitrate");
+  bitrate->check(CLI::Validator(bit_rate_problem, "bit/s"));
+  kick.add_option("--step-us", options.step_us, "with --bitrate: from SYNC to the controller's frames")
+      ->check(CLI::Range(0.0, 900.0))
+      ->needs(bitrate)
+      ->capture_default_str();
+  kick.add_option("--vision-phase-us", options.vision_phase_us, "with --bitrate: from SYNC to the picture")
+      ->check(CLI::Range(0.0, 999.0))
+      ->needs(bitrate)
+      ->capture_default_str();
   kick.add_flag("--realtime", options.real_time, "run at wall-clock speed, without SYNC");
   kick.add_option("--answer-timeout", options.answer_timeout_ms,
                   "lockstep: run on unanswered after this, in ms")
@@ -137,11 +154,36 @@ std::unique_ptr<ControllerLink> open_link(const Options& options) {
   }
   const std::string interface = options.bus.substr(4);
   if (options.real_time) {
+    if (options.bitrate != 0) {
+      throw std::runtime_error("--bitrate is for lockstep: leave out --realtime, or use --bus inproc");
+    }
     return std::make_unique<FreeRunningLink>(interface);
   }
   return std::make_unique<LockstepLink>(
       interface, SocketCanOptions{std::chrono::milliseconds(options.answer_timeout_ms),
                                   std::chrono::milliseconds(options.start_timeout_ms)});
+}
+
+// A tick's frames: as they were received on the bus in time, or all at the tick.
+void log_tick(AtomicFile& log, const TickRecord& record, const std::optional<TimedLink>& timed) {
+  if (timed) {
+    for (const StampedFrame& seen : timed->seen()) {
+      write_candump(log, seen.received_ns / 1000, seen.frame);
+    }
+    return;
+  }
+  for (const can::Frame& frame : *record.frames) {
+    write_candump(log, std::int64_t{record.tick} * 1000, frame);
+  }
+}
+
+void print_bus(const Options& options, const TimedBusReport& bus) {
+  fmt::print(
+      "bus at {} bit/s: busy {:.1f} %, {} frames replaced while they waited; picture to torque command at "
+      "most "
+      "{:.3f} ms over {} decisions\n",
+      options.bitrate, 100.0 * bus.busy_share, bus.replaced,
+      static_cast<double>(bus.decision_latency_max_ns) / 1e6, bus.decisions);
 }
 
 int play_kicks(const Options& options) {
@@ -153,6 +195,12 @@ int play_kicks(const Options& options) {
   std::optional<AtomicFile> log;
   std::optional<DecisionCsv> decisions;
   std::optional<Pacer> pacer;
+  std::optional<TimedLink> timed;
+  if (options.bitrate != 0) {
+    timed.emplace(*link, TimedBusOptions{.bit_ns = bit_time_ns(options.bitrate),
+                                         .step_ns = std::llround(options.step_us * 1e3),
+                                         .vision_phase_ns = std::llround(options.vision_phase_us * 1e3)});
+  }
   if (!options.log.empty()) {
     log.emplace(options.log);
   }
@@ -169,12 +217,12 @@ int play_kicks(const Options& options) {
                      .first_episode = options.first,
                      .episodes = options.episodes,
                      .lockstep = !options.real_time || in_process != nullptr},
-                    *link,
+                    timed ? static_cast<ControllerLink&>(*timed) : *link,
                     {.begin_tick = [&] { pacer ? pacer->wait() : void(); },
                      .end_tick =
                          [&](const TickRecord& record) {
                            if (log) {
-                             write_candump(*log, record.tick, *record.frames);
+                             log_tick(*log, record, timed);
                            }
                            if (decisions && record.deciding) {
                              decisions->observe(in_process->controller(), record.episode, !record.contact);
@@ -196,6 +244,9 @@ int play_kicks(const Options& options) {
                     .wall_s = wall.count(),
                     .episodes = runner.outcomes()};
   fmt::print("{}", format_table(run, run.episodes.size() <= 50));
+  if (timed) {
+    print_bus(options, timed->report());
+  }
   if (pacer) {
     pacer->report();
   }

@@ -4,13 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "can/frame.hpp"
 #include "report/atomic_file.hpp"
 
 namespace striker::sil {
 
-void write_candump(AtomicFile& log, std::uint32_t tick_ms, std::span<const can::Frame> frames);
+void write_candump(AtomicFile& log, std::int64_t stamp_us, const can::Frame& frame);
 
 }  // namespace striker::sil

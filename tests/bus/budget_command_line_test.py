@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""striker-bus-budget: table, exit status, JSON, errors. Usage: budget_command_line_test.py BIN_DIRECTORY"""
+"""striker-bus-budget, and striker-sil's bus in time. Usage: budget_command_line_test.py BIN_DIRECTORY"""
 
 import json
 import os
@@ -13,6 +13,11 @@ BIN = sys.argv.pop(1)
 
 def budget(*arguments):
     return subprocess.run([os.path.join(BIN, "striker-bus-budget"), *arguments], capture_output=True, text=True)
+
+
+def kick(*arguments):
+    return subprocess.run([os.path.join(BIN, "striker-sil"), "kick", "--episodes", "1", *arguments],
+                          capture_output=True, text=True)
 
 
 class BudgetCommandLine(unittest.TestCase):
@@ -69,6 +74,28 @@ class BudgetCommandLine(unittest.TestCase):
                 return [message["response_us"] for message in json.load(stream)["messages"]]
         for more in (["--errors-per-s", "10"], ["--jitter-us", "200"], ["--step-us", "90"], ["--lateness-us", "300"]):
             self.assertGreater(sum(response(*more)), sum(response()), more)
+
+    def test_the_simulators_log_shows_bus_time_only_when_asked_to(self):
+        def stamps_us(*arguments):
+            result = kick("--log", self.file("bus.log"), *arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.file("bus.log"), encoding="ascii") as log:
+                return [int(line[1:18].replace(".", "")) for line in log], result.stdout
+        plain, told = stamps_us()
+        self.assertTrue(all(stamp % 1000 == 0 for stamp in plain))
+        self.assertNotIn("bit/s", told)
+        timed, told = stamps_us("--bitrate", "500000")
+        self.assertEqual(timed, sorted(set(timed)))  # one frame at a time
+        self.assertRegex(told, r"bus at 500000 bit/s: busy \d+\.\d %, 0 frames replaced .* over 4\d decisions")
+        self.assertGreater(stamps_us("--bitrate", "500000", "--step-us", "200")[0][3], timed[3])
+
+    def test_the_simulator_refuses_what_does_not_go_together(self):
+        for arguments, word in ((["--bitrate", "83333"], "'83333'"), (["--step-us", "10"], "--bitrate"),
+                                (["--vision-phase-us", "1000", "--bitrate", "1000000"], "--vision-phase-us"),
+                                (["--bitrate", "1000000", "--realtime", "--bus", "can:vcan0"], "--bitrate")):
+            result = kick(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn(word, result.stderr)
 
     def test_errors_say_what_is_wrong(self):
         for arguments, word in ((["--bitrate", "83333"], "'83333'"), (["--bitrate", "2000000"], "1000000"),

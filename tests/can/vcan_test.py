@@ -82,6 +82,15 @@ class Vcan(unittest.TestCase):
             finally:
                 stop(process)
 
+    def test_the_bus_in_time_gives_the_same_bytes_and_stamps_too(self):
+        in_process = self.kick("a.log", "--bitrate", "500000")
+        self.assertNotEqual(in_process, self.kick("b.log"))
+        process = firmware()
+        try:
+            self.assertEqual(in_process, self.kick("c.log", "--bitrate", "500000", "--bus", "can:vcan0"))
+        finally:
+            stop(process)
+
     def test_a_paused_firmware_changes_no_byte(self):
         in_process = self.kick("a.log", "--bus", "inproc")
         process = firmware()
