@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <limits>
 #include <sstream>
@@ -17,23 +16,20 @@ namespace striker::training {
 
 namespace {
 
-constexpr std::string_view header =
-    "episode,decision,before_contact,action,ball_x_um,ball_y_um,robot_speed_mm_s,ball_vx_mm_s,ball_vy_mm_s,"
-    "ball_angle";
-constexpr std::size_t columns = 10;
+constexpr std::string_view header_start = "episode,decision,before_contact,action,";
 constexpr std::size_t before_contact_column = 2;
 constexpr std::size_t action_column = 3;
 constexpr std::size_t first_state_column = 4;
 
-using Row = std::array<std::int32_t, columns>;
+using Row = std::vector<std::int32_t>;
 
-// False unless the line is ten whole numbers.
-bool read_row(std::string_view line, Row& row) {
+// False unless the line fills the row with whole numbers.
+bool read_row(std::string_view line, Row& row, int actions) {
   const char* at = line.data();
   const char* const end = at + line.size();
-  for (std::size_t column = 0; column < columns; ++column) {
+  for (std::size_t column = 0; column < row.size(); ++column) {
     const auto [next, error] = std::from_chars(at, end, row[column]);
-    const bool last = column + 1 == columns;
+    const bool last = column + 1 == row.size();
     if (error != std::errc{} || (last ? next != end : (next == end || *next != ','))) {
       return false;
     }
@@ -45,13 +41,15 @@ bool read_row(std::string_view line, Row& row) {
 
 }  // namespace
 
-Agreement agreement(const Parameters& parameters, std::span<const Decision> decisions) {
+Agreement agreement(const Parameters& parameters, const StateInputs& inputs,
+                    std::span<const Decision> decisions) {
+  Actor actor(parameters.shape());
   Agreement result;
   std::size_t same = 0;
   std::size_t clear_same = 0;
   double regret = 0.0;
   for (const Decision& decision : decisions) {
-    QValues q = q_values(parameters, features(state_of(decision.state)));
+    Eigen::VectorXf q = actor.values(parameters, features_of(inputs, decision.state));
     const int best = greedy_action(q);
     const float best_q = q(best);
     const bool agrees = best == decision.action;
@@ -72,26 +70,28 @@ Agreement agreement(const Parameters& parameters, std::span<const Decision> deci
   return result;
 }
 
-std::vector<Decision> load_decisions(const std::filesystem::path& file) {
+std::vector<Decision> load_decisions(const std::filesystem::path& file, const Shape& shape) {
   std::istringstream stream(read_file(file));
   std::string line;
-  if (!std::getline(stream, line) || line != header) {
-    throw std::runtime_error(fmt::format(
-        "{}: line 1 is not the header of a decisions file of striker-sil: {}", file.string(), header));
+  Row row(first_state_column + static_cast<std::size_t>(shape.inputs));
+  const bool starts = std::getline(stream, line) && line.starts_with(header_start);
+  if (!starts || std::count(line.begin(), line.end(), ',') + 1 != static_cast<std::ptrdiff_t>(row.size())) {
+    throw std::runtime_error(
+        fmt::format("{}: line 1 is not the header of a decisions file of striker-sil: {} "
+                    "and then a column for each of the network's {} inputs",
+                    file.string(), header_start, shape.inputs));
   }
   std::vector<Decision> decisions;
   for (int number = 2; std::getline(stream, line); ++number) {
-    Row row{};
-    if (!read_row(line, row)) {
-      throw std::runtime_error(fmt::format(
-          "{}: line {}: \"{}\" is not ten whole numbers with before_contact 0 or 1 and action 0 to {}; was "
-          "the file cut off?",
-          file.string(), number, line.substr(0, 80), actions - 1));
+    if (!read_row(line, row, shape.actions)) {
+      throw std::runtime_error(
+          fmt::format("{}: line {}: \"{}\" is not {} whole numbers with before_contact 0 "
+                      "or 1 and action 0 to {}; was the file cut off?",
+                      file.string(), number, line.substr(0, 80), row.size(), shape.actions - 1));
     }
-    Decision decision{.action = row[action_column]};
-    std::copy(row.begin() + first_state_column, row.end(), decision.state.begin());
     if (row[before_contact_column] == 1) {
-      decisions.push_back(decision);
+      decisions.push_back(
+          {.state = {row.begin() + first_state_column, row.end()}, .action = row[action_column]});
     }
   }
   return decisions;

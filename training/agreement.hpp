@@ -11,7 +11,7 @@
 namespace striker::training {
 
 struct Decision {
-  RawState state{};
+  RawState state;
   int action = 0;
 };
 
@@ -26,12 +26,12 @@ struct Agreement {
   double mean_regret = 0.0;      // float Q of the best action minus float Q of the one taken
 };
 
-[[nodiscard]] Agreement agreement(const Parameters& parameters, std::span<const Decision> decisions);
+[[nodiscard]] Agreement agreement(const Parameters& parameters, const StateInputs& inputs,
+                                  std::span<const Decision> decisions);
 
-// The decisions before contact of a file that striker-sil writes: CSV, integers, with the header
-//   episode,decision,before_contact,action,ball_x_um,ball_y_um,robot_speed_mm_s,ball_vx_mm_s,ball_vy_mm_s,
-//   ball_angle
-// in one line. Throws std::runtime_error that names file and line.
-[[nodiscard]] std::vector<Decision> load_decisions(const std::filesystem::path& file);
+// The decisions before contact of a file that striker-sil writes: CSV, whole numbers, with the header
+//   episode,decision,before_contact,action,
+// and then a column for each input of the network. Throws std::runtime_error that names file and line.
+[[nodiscard]] std::vector<Decision> load_decisions(const std::filesystem::path& file, const Shape& shape);
 
 }  // namespace striker::training

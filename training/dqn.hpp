@@ -1,46 +1,98 @@
 // The learner: a deep Q network (Mnih et al. 2015) as in the paper, with the options of the configuration.
+// dqn.cpp holds all of it, from an episode's decisions down to the gradient step.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "config.hpp"
 #include "network.hpp"
+#include "priorities.hpp"
+#include "replay.hpp"
+#include "safetensors.hpp"
+#include "world/random.hpp"
 
 namespace striker::training {
 
-// The moving average that the paper draws, in episodes.
-inline constexpr int moving_average_span = 250;
-
-// A row of the learning curve.
+// What one episode of training was like.
 struct EpisodeRow {
   int episode = 0;
   int steps = 0;  // decisions until the contact, or 40
   double reward = 0.0;
-  double moving_average = 0.0;  // of the reward, over the last 250 episodes or all so far
   bool contact = false;
   double epsilon = 0.0;
-  double loss = 0.0;  // the mean over the episode's gradient steps, 0 if there were none
+  double learning_rate = 0.0;
+  // Means over the episode's gradient steps, 0 if there were none.
+  double loss = 0.0;
+  double td_error = 0.0;  // its absolute value
+  double q = 0.0;         // of the actions in the samples
 };
 
-struct Training {
-  Parameters parameters;
-  std::vector<EpisodeRow> rows;
-  std::int64_t decisions = 0;
-  std::int64_t gradient_steps = 0;
+// Everything that learns, and nothing else: save it at the end of an episode, restore it into a learner of
+// the same configuration and seed, and it goes on to the same bits. Allocates nothing once made.
+class Learner {
+ public:
+  Learner(const Config& config, std::uint64_t seed);
+
+  // Plays training episode `episode` in `env`, which has been reset to its start, and learns from it.
+  EpisodeRow play(KickEnv& env, int episode);
+
+  // What is learnt so far: the network that the model will hold.
+  [[nodiscard]] Parameters result() const;
+
+  [[nodiscard]] std::int64_t decisions() const { return decisions_; }
+  [[nodiscard]] std::int64_t gradient_steps() const { return gradient_steps_; }
+
+  // For benchmarks: a gradient step by itself.
+  void remember(const Features& state, int action, double reward, const Features& next, bool end);
+  void learn(EpisodeRow& row);
+
+  // In checkpoint.cpp.
+  void save(SafeTensors& checkpoint) const;
+  void restore(const SafeTensors& checkpoint);
+
+ private:
+  int choose(const Features& state, double epsilon);
+  [[nodiscard]] bool warm() const;
+  void sample();
+  double differentiate(EpisodeRow& row);
+  [[nodiscard]] float value_of_next(Eigen::Index i) const;
+  void weigh_samples();
+  void update_priorities();
+  void follow();
+
+  LearnerConfig config_;
+  OptimiserConfig optimiser_;
+  ExplorationConfig exploration_;
+  int episodes_;
+
+  Parameters online_;
+  Parameters target_;
+  Parameters average_;
+  Adam adam_;
+  ReplayBuffer replay_;
+  Priorities priorities_;
+  NStep n_step_;
+  sil::Random choosing_;
+  sil::Random sampling_;
+  std::int64_t decisions_ = 0;
+  std::int64_t gradient_steps_ = 0;
+  double progress_ = 0.0;  // of the training, 0 to 1
+
+  // The room of a gradient step: a sample a column.
+  std::vector<Eigen::Index> places_;
+  std::vector<int> actions_;
+  Eigen::MatrixXf states_, next_states_, q_gradient_;
+  Eigen::VectorXf td_errors_, sample_weights_;
+  Features mirror_factors_;
+  std::vector<int> mirrored_actions_;
+  Pass pass_, next_pass_, choosing_pass_;
+  Eigen::VectorXf gradient_;
+  Actor actor_;
+  Features state_, next_state_;
 };
-
-// Called after each episode; false ends the training there.
-using Progress = std::function<bool(const EpisodeRow&)>;
-
-// A pure function of the configuration and the seed, on one type of machine.
-[[nodiscard]] Training train(const Config& config, std::uint64_t seed, const Progress& progress);
 
 // The weights that a training begins with: uniform, He et al. 2015; biases 0.
-[[nodiscard]] Parameters initial_parameters(std::uint64_t seed);
-
-// The mean reward of greedy play on `episodes` episodes that neither training nor evaluation meets.
-[[nodiscard]] double validate(const Config& config, const Parameters& parameters, std::uint64_t seed);
+[[nodiscard]] Parameters initial_parameters(const Shape& shape, std::uint64_t seed);
 
 }  // namespace striker::training

@@ -25,18 +25,18 @@ struct Options {
   std::string pose = "origin";
   std::string velocities = "true";
   std::string world = "full";
+  std::filesystem::path config;
   std::filesystem::path decisions;
   std::filesystem::path json;
 };
 
-int evaluate_play(const Options& options, const Model& model) {
-  const sil::PoseMode pose = options.pose == "origin" ? sil::PoseMode::origin : sil::PoseMode::anywhere;
-  KickEnv env({.velocities = options.velocities == "true" ? Velocities::exact : Velocities::estimated,
-               .equations = equations_of(model),
-               .world = options.world == "full" ? World::full : World::fast});
-  const Choice choose = [&](const RcsState& state) {
-    return greedy_action(q_values(model.parameters, features(state)));
-  };
+int evaluate_play(const Options& options, const Model& model, EnvConfig task) {
+  task.pose = options.pose == "origin" ? sil::PoseMode::origin : sil::PoseMode::anywhere;
+  task.velocities = options.velocities == "true" ? Velocities::exact : Velocities::estimated;
+  task.world = options.world == "full" ? World::full : World::fast;
+  KickEnv env(task);
+  Actor actor(model.parameters.shape());
+  const Choice choose = [&](const KickEnv& seen) { return actor.choose(model.parameters, seen.features()); };
   sil::KickRun run;
   run.seed = options.seed;
   run.plant = "servo";
@@ -45,7 +45,7 @@ int evaluate_play(const Options& options, const Model& model) {
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < options.episodes; ++i) {
     const auto episode = static_cast<std::uint64_t>(i);
-    run.episodes.push_back(play(env, sil::draw_kick(options.seed, episode, pose), choose));
+    run.episodes.push_back(play(env, options.seed, episode, choose));
   }
   run.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   run.simulated_s = env.simulated_s();
@@ -56,8 +56,9 @@ int evaluate_play(const Options& options, const Model& model) {
   return 0;
 }
 
-int evaluate_decisions(const Options& options, const Model& model) {
-  const Agreement result = agreement(model.parameters, load_decisions(options.decisions));
+int evaluate_decisions(const Options& options, const Model& model, const EnvConfig& task) {
+  const Agreement result =
+      agreement(model.parameters, task.inputs, load_decisions(options.decisions, model.parameters.shape()));
   if (!options.json.empty()) {
     const nlohmann::ordered_json report = {{"policy", model_identity(model.parameters)},
                                            {"states", result.states},
@@ -83,11 +84,13 @@ int evaluate_decisions(const Options& options, const Model& model) {
 int main(int argc, char** argv) {
   using namespace striker::training;
   CLI::App app(
-      "Plays the official kick task greedily with a float network (ODE world, servo plant), on episodes that "
-      "no\n"
-      "training meets: episode i of a seed is the same one in striker-sil. With --decisions it plays "
-      "nothing, but\n"
-      "says how far the choices in a file that striker-sil wrote agree with the network's.",
+      "Plays the kick task greedily with a float network (ODE world, servo plant), on episodes that no "
+      "training\n"
+      "meets: episode i of a seed is the same one in striker-sil. With --decisions it plays nothing, but "
+      "says\n"
+      "how far the choices in a file that striker-sil wrote agree with the network's. The network may come "
+      "from\n"
+      "elsewhere (PyTorch, Stable-Baselines3), if it was saved as safetensors in float32.",
       "striker-evaluate");
   Options options;
   app.add_option("--model", options.model, "safetensors file")->required();
@@ -97,6 +100,8 @@ int main(int argc, char** argv) {
   app.add_option("--pose", options.pose, "the robot's start: origin or anywhere on the field")
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();
+  app.add_option("--config", options.config,
+                 "the TOML file whose task it was trained for, if the model does not hold it");
   app.add_option("--velocities", options.velocities, "what the network sees: true or estimated velocities")
       ->check(CLI::IsMember({"true", "estimated"}))
       ->capture_default_str();
@@ -111,6 +116,7 @@ int main(int argc, char** argv) {
       throw std::runtime_error("give --episodes and --seed, or --decisions");
     }
     const Model model = load_model(options.model);
-    return *decisions ? evaluate_decisions(options, model) : evaluate_play(options, model);
+    const EnvConfig task = task_of(model, options.config);
+    return *decisions ? evaluate_decisions(options, model, task) : evaluate_play(options, model, task);
   });
 }

@@ -20,46 +20,57 @@ constexpr std::uint64_t calibration_stream = 104;
 constexpr int calibration_plays = 150;
 constexpr int validation_plays = 150;
 constexpr std::size_t golden_count = 16;
+constexpr std::size_t greatest_firmware_inputs = 32;  // core::greatest_inputs
 
 // The states before contact of `count` episodes each of greedy and of random play, beginning with `first`.
-std::vector<RawState> met_states(const Parameters& parameters, int first, int count) {
+std::vector<RawState> met_states(const Parameters& parameters, EnvConfig task, int first, int count) {
   std::vector<RawState> states;
-  KickEnv env({.world = World::full});
-  const auto collect = [&](const RcsState& state) {
-    if (!env.outcome().contact) {
-      states.push_back(raw_state(state));
+  task.world = World::full;
+  KickEnv env(task);
+  Actor actor(parameters.shape());
+  const auto collect = [&states](const KickEnv& seen) {
+    if (!seen.outcome().contact) {
+      states.push_back(seen.raw());
     }
   };
   for (int i = first; i < first + count; ++i) {
     const std::uint64_t episode = calibration_episodes + static_cast<std::uint64_t>(i);
-    const sil::KickStart start = sil::draw_kick(calibration_seed, episode, sil::PoseMode::origin);
-    play(env, start, [&](const RcsState& state) {
-      collect(state);
-      return greedy_action(q_values(parameters, features(state)));
+    play(env, calibration_seed, episode, [&](const KickEnv& seen) {
+      collect(seen);
+      return actor.choose(parameters, seen.features());
     });
     sil::Random random(calibration_seed, episode, calibration_stream);
-    play(env, start, [&](const RcsState& state) {
-      collect(state);
-      return static_cast<int>(random.below(actions));
+    play(env, calibration_seed, episode, [&](const KickEnv& seen) {
+      collect(seen);
+      return static_cast<int>(random.below(task.actions.size()));
     });
   }
   return states;
 }
 
-// Every input saturates: all up, all down, and in turn.
-std::vector<RawState> extreme_states() {
-  constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
-  constexpr std::int32_t greatest = std::numeric_limits<std::int32_t>::max();
-  constexpr std::int32_t least_angle = -32768;
-  constexpr std::int32_t greatest_angle = 32767;
-  return {{greatest, greatest, greatest, greatest, greatest, greatest_angle},
-          {least, least, least, least, least, least_angle},
-          {greatest, least, greatest, least, greatest, least_angle},
-          {least, greatest, least, greatest, least, greatest_angle}};
+// Every input saturates: all up, all down, and in turn. Only some values are possible for an angle.
+std::vector<RawState> extreme_states(const StateInputs& inputs) {
+  std::vector<RawState> states;
+  for (const unsigned pattern : {0b00U, 0b11U, 0b10U, 0b01U}) {
+    RawState state;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const bool low = ((pattern >> (i % 2)) & 1U) != 0;
+      if (inputs[i].element == Element::ball_angle) {
+        state.push_back(low ? std::numeric_limits<std::int16_t>::min()
+                            : std::numeric_limits<std::int16_t>::max());
+      } else {
+        state.push_back(low ? std::numeric_limits<std::int32_t>::min()
+                            : std::numeric_limits<std::int32_t>::max());
+      }
+    }
+    states.push_back(state);
+  }
+  return states;
 }
 
-std::vector<GoldenVector> golden_vectors(const IntegerNetwork& network, const std::vector<RawState>& met) {
-  std::vector<RawState> states = extreme_states();
+std::vector<GoldenVector> golden_vectors(const IntegerNetwork& network, const StateInputs& inputs,
+                                         const std::vector<RawState>& met) {
+  std::vector<RawState> states = extreme_states(inputs);
   const std::size_t from_play = golden_count - states.size();
   for (std::size_t i = 0; i < from_play; ++i) {
     states.push_back(met[i * met.size() / from_play]);
@@ -67,19 +78,43 @@ std::vector<GoldenVector> golden_vectors(const IntegerNetwork& network, const st
   std::vector<GoldenVector> goldens;
   goldens.reserve(states.size());
   for (const RawState& state : states) {
-    goldens.push_back({.raw = {state.begin(), state.end()}, .answer = evaluate(network, state)});
+    goldens.push_back({.raw = state, .answer = evaluate(network, state)});
   }
   return goldens;
 }
 
-Agreement compare(const Parameters& parameters, const IntegerNetwork& network,
+Agreement compare(const Parameters& parameters, const StateInputs& inputs, const IntegerNetwork& network,
                   const std::vector<RawState>& states) {
   std::vector<Decision> decisions;
   decisions.reserve(states.size());
   for (const RawState& state : states) {
     decisions.push_back({.state = state, .action = static_cast<int>(evaluate(network, state).action)});
   }
-  return agreement(parameters, decisions);
+  return agreement(parameters, inputs, decisions);
+}
+
+void require_firmware_serves(const EnvConfig& task) {
+  if (task.equations == Equations::printed) {
+    throw std::runtime_error(
+        "the model was trained with the paper's printed equations, which the firmware does "
+        "not compute; train with equations = \"corrected\"");
+  }
+  for (const StateInput& input : task.inputs) {
+    if (facts_of(input.element).raw_per_value == 0.0) {
+      throw std::runtime_error(fmt::format(
+          "the model reads {}, which the controller does not know; train with inputs = \"rcs\" or those that "
+          "paper.toml says the controller has",
+          facts_of(input.element).name));
+    }
+  }
+  if (task.inputs.size() > greatest_firmware_inputs) {
+    throw std::runtime_error(fmt::format("the model reads {} inputs; the controller offers room for {}",
+                                         task.inputs.size(), greatest_firmware_inputs));
+  }
+}
+
+std::int32_t mm_s(double speed_m_s) {
+  return static_cast<std::int32_t>(std::lround(speed_m_s * 1e3));
 }
 
 std::string noted(const Model& model, const std::string& key) {
@@ -89,29 +124,26 @@ std::string noted(const Model& model, const std::string& key) {
 
 }  // namespace
 
-Export export_model(const Model& model) {
-  if (equations_of(model) == Equations::printed) {
-    throw std::runtime_error(
-        "the model was trained with the paper's printed equations, which the firmware does "
-        "not compute; train with equations = \"corrected\"");
-  }
-  const std::vector<RawState> calibration = met_states(model.parameters, 0, calibration_plays);
-  const std::vector<RawState> validation = met_states(model.parameters, calibration_plays, validation_plays);
+Export export_model(const Model& model, const EnvConfig& task) {
+  require_firmware_serves(task);
+  const Parameters& parameters = model.parameters;
+  const std::vector<RawState> calibration = met_states(parameters, task, 0, calibration_plays);
+  const std::vector<RawState> validation = met_states(parameters, task, calibration_plays, validation_plays);
   Export exported;
   exported.calibration_states = calibration.size();
-  exported.quantised = quantise(model.parameters, calibration);
-  exported.agreement = compare(model.parameters, exported.quantised.network, validation);
+  exported.quantised = quantise(parameters, task.inputs, calibration);
+  exported.agreement = compare(parameters, task.inputs, exported.quantised.network, validation);
 
   ExportedPolicy& policy = exported.policy;
   const auto configuration = model.metadata.find("configuration");
   policy.configuration_hash = fnv1a(configuration == model.metadata.end() ? "" : configuration->second);
   policy.decision_period_ms = static_cast<std::int32_t>(std::lround(sil::decision_period_s * 1e3));
+  policy.inputs = task.inputs;
   policy.network = exported.quantised.network;
-  for (const double speed_m_s : set_points_m_s) {
-    const auto speed_mm_s = static_cast<std::int32_t>(std::lround(speed_m_s * 1e3));
-    policy.set_points.push_back({.left_mm_s = speed_mm_s, .right_mm_s = speed_mm_s});
+  for (const SetPoints& action : task.actions) {
+    policy.set_points.push_back({.left_mm_s = mm_s(action.left_m_s), .right_mm_s = mm_s(action.right_m_s)});
   }
-  policy.golden_vectors = golden_vectors(policy.network, validation);
+  policy.golden_vectors = golden_vectors(policy.network, task.inputs, validation);
   return exported;
 }
 

@@ -12,9 +12,6 @@ namespace {
 
 constexpr std::size_t columns = 110;
 
-// The state elements of core::StateElement, in its order, which is the order of the network's inputs.
-constexpr std::array element_names = {"ball_x", "ball_y", "robot_speed", "ball_vx", "ball_vy", "ball_angle"};
-
 void add_layer(Fnv1a& hash, const IntegerLayer& layer) {
   for (const std::int16_t weight : layer.weights) {
     hash.add(weight);
@@ -57,15 +54,17 @@ std::string layer_text(const char* name, const IntegerLayer& layer) {
   return text;
 }
 
-std::string inputs_text(const IntegerNetwork& network) {
+std::string inputs_text(const ExportedPolicy& policy) {
   std::string elements;
   std::string scales;
-  for (std::size_t i = 0; i < network.input_scales.size(); ++i) {
-    const InputScale& scale = network.input_scales[i];
-    elements += fmt::format("        core::StateElement::{},\n", element_names.at(i));
+  for (std::size_t i = 0; i < policy.inputs.size(); ++i) {
+    const auto [element, ago] = policy.inputs[i];
+    const InputScale& scale = policy.network.input_scales[i];
+    elements += fmt::format("        {{.element = core::StateElement::{}, .decisions_ago = {}}},\n",
+                            facts_of(element).name, ago);
     scales += fmt::format("        {{.multiplier = {}, .shift = {}}},\n", scale.multiplier, scale.shift);
   }
-  return fmt::format("    .elements = {{{{\n{}    }}}},\n    .input_scales = {{{{\n{}    }}}},\n", elements,
+  return fmt::format("    .state = {{{{\n{}    }}}},\n    .input_scales = {{{{\n{}    }}}},\n", elements,
                      scales);
 }
 
@@ -93,8 +92,9 @@ std::uint32_t identity_of(const ExportedPolicy& policy) {
   Fnv1a hash;
   hash.add(policy.configuration_hash);
   hash.add(policy.decision_period_ms);
-  for (std::size_t i = 0; i < policy.network.input_scales.size(); ++i) {
-    hash.add(static_cast<std::uint8_t>(i));
+  for (const StateInput& input : policy.inputs) {
+    hash.add(static_cast<std::uint8_t>(input.element));
+    hash.add(static_cast<std::uint8_t>(input.decisions_ago));
   }
   for (const InputScale& scale : policy.network.input_scales) {
     hash.add(scale.multiplier);
@@ -133,7 +133,7 @@ std::string header_text(const ExportedPolicy& policy, const std::vector<std::str
   text += fmt::format("    .identity = 0x{:08X}U,\n    .configuration_hash = 0x{:08X}U,\n",
                       identity_of(policy), policy.configuration_hash);
   text += fmt::format("    .decision_period_ms = {},\n", policy.decision_period_ms);
-  text += inputs_text(policy.network);
+  text += inputs_text(policy);
   text += layer_text("layer1", layers.at(0));
   text += layer_text("layer2", layers.at(1));
   text += layer_text("output", layers.at(2));

@@ -2,12 +2,12 @@
 // the firmware.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "integer_network.hpp"
+#include "state.hpp"
 
 namespace striker::training {
 
@@ -24,6 +24,7 @@ struct SetPoint {
 struct ExportedPolicy {
   std::uint32_t configuration_hash = 0;  // FNV-1a of the training configuration's text
   std::int32_t decision_period_ms = 50;
+  StateInputs inputs;
   IntegerNetwork network;
   std::vector<SetPoint> set_points;  // one an action
   std::vector<GoldenVector> golden_vectors;

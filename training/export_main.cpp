@@ -13,13 +13,14 @@ namespace {
 
 struct Options {
   std::filesystem::path model;
+  std::filesystem::path config;
   std::filesystem::path header;
   std::filesystem::path report;
 };
 
 int export_to(const Options& options) {
   const Model model = load_model(options.model);
-  const Export exported = export_model(model);
+  const Export exported = export_model(model, task_of(model, options.config));
   write_file(options.header, header_of(exported, model));
   if (!options.report.empty()) {
     write_file(options.report, report_of(exported, model));
@@ -53,6 +54,8 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("MODEL", options.model, "safetensors file")->required();
   app.add_option("-o,--output", options.header, "the header to write")->required();
+  app.add_option("--config", options.config,
+                 "the TOML file whose task it was trained for, if the model does not hold it");
   app.add_option("--report", options.report, "write the figures to this JSON file");
   return run(app, argc, argv, [&options] { return export_to(options); });
 }

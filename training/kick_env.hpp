@@ -2,10 +2,10 @@
 // the paper: wheels that hold a set-point within a torque ceiling, physics steps of 10 ms, five a decision.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <variant>
+#include <vector>
 
 #include "state.hpp"
 #include "world/kick_task.hpp"
@@ -14,10 +14,20 @@
 
 namespace striker::training {
 
-// What the actions mean, the set-point of both wheels: forward, stop, backward (paper, section IV.A).
-inline constexpr std::array set_points_m_s = {2.55, 0.0, -2.55};
-inline constexpr double torque_ceiling_Nm = 0.4;
+// An action: what both wheels are set to.
+struct SetPoints {
+  double left_m_s = 0.0;
+  double right_m_s = 0.0;
+  bool operator==(const SetPoints&) const = default;
+};
 
+// Forward, stop, backward (paper, section IV.A).
+[[nodiscard]] std::vector<SetPoints> kick_actions();
+
+// The action that does the same seen in a mirror along the heading; -1 if there is none.
+[[nodiscard]] int mirrored_action(const std::vector<SetPoints>& actions, int action);
+
+inline constexpr double torque_ceiling_Nm = 0.4;
 inline constexpr double physics_step_s = 0.010;
 inline constexpr int steps_per_decision = 5;
 
@@ -34,45 +44,58 @@ enum class Velocities { exact, estimated };
 enum class World { fast, full };
 
 struct EnvConfig {
+  World world = World::fast;
+  sil::PoseMode pose = sil::PoseMode::origin;
   Velocities velocities = Velocities::exact;
   Equations equations = Equations::corrected;
-  World world = World::fast;
+  StateInputs inputs = rcs_inputs();
+  std::vector<SetPoints> actions = kick_actions();
+  sil::KickRules rules = {};
+  bool goes_on = false;  // the contact does not end the learner's episode
 };
 
 struct StepResult {
   double reward = 0.0;
   bool contact = false;  // the first contact was in this decision
   bool last = false;     // this was decision 40
+  bool end = false;      // of the episode, for a learner
 };
 
 class KickEnv {
  public:
   explicit KickEnv(const EnvConfig& config);
 
-  void reset(const sil::KickStart& start);
+  // To episode `episode` of `seed`.
+  void reset(std::uint64_t seed, std::uint64_t episode);
   StepResult step(int action);  // up to 40 times after a reset
   void coast();                 // 100 ms with set-point 0
 
-  [[nodiscard]] const RcsState& state() const { return state_; }
+  [[nodiscard]] const EnvConfig& config() const { return config_; }
+  [[nodiscard]] const Features& features() const { return features_; }  // what a network sees
+  [[nodiscard]] const RcsState& state() const { return history_.ago(0).rcs; }
+  [[nodiscard]] int decisions_left() const { return history_.ago(0).decisions_left; }
+  [[nodiscard]] RawState raw() const { return raw_state(config_.inputs, history_); }
   [[nodiscard]] const sil::KickOutcome& outcome() const { return episode_.outcome(); }
   [[nodiscard]] double simulated_s() const { return simulated_s_; }  // since it was made
 
  private:
-  void drive(double set_point_m_s, int steps);
-  void observe();
+  void drive(const SetPoints& set_points, int steps);
+  [[nodiscard]] Sight look() const;
 
   EnvConfig config_;
   std::variant<sil::PlanarWorld, sil::World> world_;
   sil::KickEpisode episode_;
   sil::Vec2 last_ball_m_;  // one vision frame ago
-  RcsState state_;
+  History history_;
+  sil::Random dummies_;
+  Features features_;
   int decisions_ = 0;
   double simulated_s_ = 0.0;
 };
 
-using Choice = std::function<int(const RcsState&)>;
+using Choice = std::function<int(const KickEnv&)>;
 
 // Plays an episode until the kick is measured, or to its end and 100 ms on, so that a late one is.
-sil::KickOutcome play(KickEnv& env, const sil::KickStart& start, const Choice& choose);
+sil::KickOutcome play(KickEnv& env, std::uint64_t seed, std::uint64_t episode, const Choice& choose);
 
 }  // namespace striker::training

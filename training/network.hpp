@@ -1,94 +1,105 @@
-// The Q network: 6 -> 64 -> 64 -> 3, fully connected, ReLU between, float32.
+// The Q network: inputs -> hidden -> hidden -> actions, fully connected, ReLU between, float32.
 //
 // All parameters of a network lie in one vector, so that copying, Adam and hashing are one line each;
-// `weights<L>` and `biases<L>` look at a layer's part of it. Every size but the batch's is known at compile
-// time; nothing here allocates once a `BatchPass` has been sized.
+// `weights` and `biases` look at a layer's part of it. Sizes are fixed when an object is made: nothing here
+// allocates after that.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
 
 #include "state.hpp"
 
 namespace striker::training {
 
-// The network's shape: change it here and nowhere else.
-inline constexpr std::array widths = {state_elements, 64, 64, 3};
-inline constexpr int layer_count = static_cast<int>(widths.size()) - 1;
-inline constexpr int actions = widths.back();
+inline constexpr int layer_count = 3;
 
-// Where layer L begins in the parameters: its weights (outputs x inputs, by columns), then its biases.
-constexpr int layer_offset(int layer) {
-  int offset = 0;
-  for (std::size_t l = 0; l < static_cast<std::size_t>(layer); ++l) {
-    offset += (widths[l] + 1) * widths[l + 1];
+struct Shape {
+  int inputs = 6;
+  int hidden1 = 64;
+  int hidden2 = 64;
+  int actions = 3;
+  // Dueling (Wang et al. 2016): the last layer has one more neuron, V, and Q = V + A - mean(A).
+  bool dueling = false;
+
+  [[nodiscard]] int outputs() const { return actions + (dueling ? 1 : 0); }
+  [[nodiscard]] std::array<int, layer_count + 1> widths() const {
+    return {inputs, hidden1, hidden2, outputs()};
   }
-  return offset;
-}
-
-inline constexpr int parameter_count = layer_offset(layer_count);
-using Parameters = Eigen::Matrix<float, parameter_count, 1>;
-
-template <int L>
-using WeightMatrix = Eigen::Matrix<float, widths[L + 1], widths[L]>;
-template <int L>
-using BiasVector = Eigen::Matrix<float, widths[L + 1], 1>;
-
-template <int L>
-auto weights(const Parameters& parameters) {
-  return Eigen::Map<const WeightMatrix<L>>(parameters.data() + layer_offset(L));
-}
-template <int L>
-auto weights(Parameters& parameters) {
-  return Eigen::Map<WeightMatrix<L>>(parameters.data() + layer_offset(L));
-}
-template <int L>
-auto biases(const Parameters& parameters) {
-  return Eigen::Map<const BiasVector<L>>(parameters.data() + layer_offset(L) +
-                                         WeightMatrix<L>::SizeAtCompileTime);
-}
-template <int L>
-auto biases(Parameters& parameters) {
-  return Eigen::Map<BiasVector<L>>(parameters.data() + layer_offset(L) + WeightMatrix<L>::SizeAtCompileTime);
-}
-
-using QValues = Eigen::Matrix<float, actions, 1>;
-
-[[nodiscard]] QValues q_values(const Parameters& parameters, const Features& state);
-
-// The action with the greatest value; of equals, the first.
-[[nodiscard]] int greedy_action(const QValues& q);
-
-// A batch: one sample a column.
-using StateBatch = Eigen::Matrix<float, state_elements, Eigen::Dynamic>;
-using QBatch = Eigen::Matrix<float, actions, Eigen::Dynamic>;
-
-// What a forward pass computes, and room for the backward pass.
-struct BatchPass {
-  explicit BatchPass(int batch);
-  Eigen::Matrix<float, widths[1], Eigen::Dynamic> hidden1, gradient1;
-  Eigen::Matrix<float, widths[2], Eigen::Dynamic> hidden2, gradient2;
-  QBatch q;
+  bool operator==(const Shape&) const = default;
 };
 
-void forward(const Parameters& parameters, const StateBatch& states, BatchPass& pass);
+class Parameters {
+ public:
+  explicit Parameters(const Shape& shape);  // all 0
+
+  [[nodiscard]] const Shape& shape() const { return shape_; }
+
+  // Layer 0 to 2: outputs x inputs, and one bias an output.
+  [[nodiscard]] Eigen::Map<Eigen::MatrixXf> weights(int layer);
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXf> weights(int layer) const;
+  [[nodiscard]] Eigen::Map<Eigen::VectorXf> biases(int layer);
+  [[nodiscard]] Eigen::Map<const Eigen::VectorXf> biases(int layer) const;
+
+  // Layer by layer, its weights by columns, then its biases.
+  Eigen::VectorXf values;
+
+  bool operator==(const Parameters& other) const { return shape_ == other.shape_ && values == other.values; }
+
+ private:
+  struct Place {
+    int weights, biases, rows, columns;
+  };
+
+  Shape shape_;
+  std::array<Place, layer_count> places_{};
+};
+
+// The same function without the dueling head, which folds into the last layer.
+[[nodiscard]] Parameters folded(const Parameters& parameters);
+
+// The action with the greatest value; of equals, the first.
+template <class Values>
+[[nodiscard]] int greedy_action(const Values& q) {
+  Eigen::Index best = 0;
+  q.maxCoeff(&best);
+  return static_cast<int>(best);
+}
+
+// What a forward pass computes, a sample a column, and room for the backward pass.
+struct Pass {
+  Pass(const Shape& shape, int batch);
+  Eigen::MatrixXf hidden1, hidden2, output, q;
+  Eigen::MatrixXf gradient1, gradient2, output_gradient;
+};
+
+void forward(const Parameters& parameters, const Eigen::Ref<const Eigen::MatrixXf>& states, Pass& pass);
 
 // The gradient of a loss by the parameters, from its gradient by the Q values. `pass` is the forward pass
 // over the same states.
-void backward(const Parameters& parameters, const StateBatch& states, BatchPass& pass,
-              const QBatch& q_gradient, Parameters& gradient);
+void backward(const Parameters& parameters, const Eigen::Ref<const Eigen::MatrixXf>& states, Pass& pass,
+              const Eigen::MatrixXf& q_gradient, Eigen::Ref<Eigen::VectorXf> gradient);
 
-// Adam (Kingma and Ba 2015) with its usual constants: beta 0.9 and 0.999, epsilon 1e-8.
-class Adam {
+// For single states, with its own room.
+class Actor {
  public:
-  void step(Parameters& parameters, const Parameters& gradient, double learning_rate);
+  explicit Actor(const Shape& shape) : pass_(shape, 1) {}
+  [[nodiscard]] int choose(const Parameters& parameters, const Features& state) {
+    return greedy_action(values(parameters, state));
+  }
+  [[nodiscard]] auto values(const Parameters& parameters, const Features& state) -> Eigen::MatrixXf::ColXpr;
 
  private:
-  Parameters mean_ = Parameters::Zero();
-  Parameters square_ = Parameters::Zero();
-  double mean_decay_ = 1.0;
-  double square_decay_ = 1.0;
+  Pass pass_;
+};
+
+// Adam (Kingma and Ba 2015) with its usual constants: beta 0.9 and 0.999, epsilon 1e-8.
+struct Adam {
+  explicit Adam(Eigen::Index size);
+  void step(Eigen::VectorXf& parameters, const Eigen::VectorXf& gradient, double learning_rate);
+
+  Eigen::VectorXf mean, square;
+  double mean_decay = 1.0, square_decay = 1.0;  // beta^t
 };
 
 }  // namespace striker::training

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace striker::training {
 
@@ -17,22 +18,26 @@ constexpr auto plain_period = 5s;
 
 }  // namespace
 
-ProgressLine::ProgressLine(int episodes)
-    : episodes_(episodes), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), next_(start_) {}
+ProgressLine::ProgressLine(std::string unit, std::int64_t total, std::int64_t done_before)
+    : unit_(std::move(unit)),
+      total_(total),
+      done_before_(done_before),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      next_(start_) {}
 
-void ProgressLine::show(const EpisodeRow& row) {
+bool ProgressLine::due(std::int64_t done) const {
+  return done >= total_ || Clock::now() >= next_;
+}
+
+void ProgressLine::show(std::int64_t done, const std::string& detail) {
   const auto now = Clock::now();
-  const int done = row.episode + 1;
-  if (now < next_ && done < episodes_) {
-    return;
-  }
   next_ = now + (terminal_ ? Clock::duration(terminal_period) : Clock::duration(plain_period));
   const double elapsed_s = std::max(1e-3, std::chrono::duration<double>(now - start_).count());
-  const double rate = done / elapsed_s;
-  const double left_s = (episodes_ - done) / rate;
-  const std::string line =
-      fmt::format("episode {}/{}  {:.0f} episodes/s  {:.0f} s left  reward {:.2f} (mean of {})", done,
-                  episodes_, rate, left_s, row.moving_average, std::min(done, moving_average_span));
+  const double rate = static_cast<double>(done - done_before_) / elapsed_s;
+  const double left_s = rate > 0.0 ? static_cast<double>(total_ - done) / rate : 0.0;
+  const std::string line = fmt::format("{} {}/{}  {:.{}f} {}s/s  {:.0f} s left  {}", unit_, done, total_,
+                                       rate, rate < 10.0 ? 2 : 0, unit_, left_s, detail);
   fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\x1b[K" : "\n");
   std::fflush(stderr);
   shown_ = true;

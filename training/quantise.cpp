@@ -26,17 +26,20 @@ struct FloatLayer {
   Eigen::VectorXd biases;
 };
 
-template <int L>
-FloatLayer layer_of(const Parameters& parameters) {
-  return {weights<L>(parameters).template cast<double>(), biases<L>(parameters).template cast<double>()};
+std::vector<FloatLayer> layers_of(const Parameters& parameters) {
+  std::vector<FloatLayer> layers;
+  for (int layer = 0; layer < layer_count; ++layer) {
+    layers.push_back({parameters.weights(layer).cast<double>(), parameters.biases(layer).cast<double>()});
+  }
+  return layers;
 }
 
 // What each layer holds, a column a calibration state: inputs, hidden activations, Q.
-std::vector<Eigen::MatrixXd> float_play(const std::vector<FloatLayer>& layers,
+std::vector<Eigen::MatrixXd> float_play(const std::vector<FloatLayer>& layers, const StateInputs& inputs,
                                         std::span<const RawState> states) {
-  std::vector<Eigen::MatrixXd> held{Eigen::MatrixXd(state_elements, states.size())};
+  std::vector<Eigen::MatrixXd> held{Eigen::MatrixXd(inputs.size(), states.size())};
   for (std::size_t i = 0; i < states.size(); ++i) {
-    held[0].col(static_cast<Eigen::Index>(i)) = features(state_of(states[i])).cast<double>();
+    held[0].col(static_cast<Eigen::Index>(i)) = features_of(inputs, states[i]).cast<double>();
   }
   for (std::size_t l = 0; l < layers.size(); ++l) {
     Eigen::MatrixXd sums = (layers[l].weights * held.back()).colwise() + layers[l].biases;
@@ -66,13 +69,11 @@ InputScale input_scale(double unit, int exponent) {
           .shift = shift};
 }
 
-std::vector<InputScale> input_scales(int exponent) {
-  const double um = 1e-6 / position_unit_m;
-  const double mm_s = 1e-3 / speed_unit_m_s;
-  const double binary_angle = 1.0 / 32768.0;
+std::vector<InputScale> input_scales(const StateInputs& inputs, int exponent) {
   std::vector<InputScale> scales;
-  for (const double unit : {um, um, mm_s, mm_s, mm_s, binary_angle}) {
-    scales.push_back(input_scale(unit, exponent));
+  for (const StateInput& input : inputs) {
+    const ElementFacts& facts = facts_of(input.element);
+    scales.push_back(input_scale(1.0 / facts.raw_per_value / facts.unit, exponent));
   }
   return scales;
 }
@@ -173,13 +174,13 @@ void measure(Quantised& result, const std::vector<Eigen::MatrixXd>& held, std::s
 
 }  // namespace
 
-Quantised quantise(const Parameters& parameters, std::span<const RawState> calibration) {
-  const std::vector<FloatLayer> layers{layer_of<0>(parameters), layer_of<1>(parameters),
-                                       layer_of<2>(parameters)};
-  const std::vector<Eigen::MatrixXd> held = float_play(layers, calibration);
+Quantised quantise(const Parameters& parameters, const StateInputs& inputs,
+                   std::span<const RawState> calibration) {
+  const std::vector<FloatLayer> layers = layers_of(parameters);
+  const std::vector<Eigen::MatrixXd> held = float_play(layers, inputs, calibration);
   Quantised result;
   result.input_exponent = activation_exponent(held[0]);
-  result.network.input_scales = input_scales(result.input_exponent);
+  result.network.input_scales = input_scales(inputs, result.input_exponent);
   int input_exponent = result.input_exponent;
   for (std::size_t l = 0; l < layers.size(); ++l) {
     const bool hidden = l + 1 < layers.size();

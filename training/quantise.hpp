@@ -31,6 +31,7 @@ struct Quantised {
 };
 
 // Throws std::runtime_error if no scale fits (weights so large that the proof fails at every scale).
-[[nodiscard]] Quantised quantise(const Parameters& parameters, std::span<const RawState> calibration);
+[[nodiscard]] Quantised quantise(const Parameters& parameters, const StateInputs& inputs,
+                                 std::span<const RawState> calibration);
 
 }  // namespace striker::training

@@ -1,22 +1,29 @@
-// What the policy sees: the paper's RCS state (section III), six elements in the robot's frame.
+// What a network sees: a list of elements chosen in the configuration, each from the present decision or from
+// one of those before it.
 //
-// The corrected form is the default. `printed` follows the paper's equations to the letter, for comparison:
-// the ball's velocity goes through M^-1 like a point (its third homogeneous component is 1), so the state
-// depends on the robot's place; the robot's speed is the sum of squares, without a sign; the angle does not
-// wrap.
+// The paper's RCS state (section III) is six elements in the robot's frame; its ACS state is ten in the
+// field's axes. The corrected equations are the default. `printed` follows the paper to the letter, for
+// comparison: the ball's velocity goes through M^-1 like a point (its third homogeneous component is 1), so
+// the state depends on the robot's place; the robot's speed is the sum of squares, without a sign; the angle
+// does not wrap.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
 
+#include "world/random.hpp"
 #include "world/world.hpp"
 
 namespace striker::training {
 
 enum class Equations { corrected, printed };
 
-// What a state is computed from, in world axes: the truth, or an estimate.
+// What a state is computed from, in the field's axes: the truth, or an estimate.
 struct Observation {
   sil::Pose robot;
   sil::Vec2 robot_velocity_m_s;
@@ -39,24 +46,87 @@ inline constexpr double rest_speed_m_s = 0.02;
 
 [[nodiscard]] double wrap_angle_rad(double angle_rad);  // into (-pi, pi]
 
-// The network reads each element divided by one of these: the circle on which the ball starts, the robot's
-// steady speed, half a turn.
+// All that one decision knows.
+struct Sight {
+  RcsState rcs;
+  Observation field;
+  int decisions_left = 0;  // 40 at the first decision of an episode, 0 after its last
+};
+
+// The first seven are the controller's (core::StateElement, in its order); the rest is for experiments.
+enum class Element : std::uint8_t {
+  ball_x,
+  ball_y,
+  robot_speed,
+  ball_vx,
+  ball_vy,
+  ball_angle,
+  decisions_left,
+  field_robot_x,
+  field_robot_y,
+  field_robot_heading,
+  field_robot_vx,
+  field_robot_vy,
+  field_ball_x,
+  field_ball_y,
+  field_ball_vx,
+  field_ball_vy,
+  field_ball_angle,
+  dummy,  // uniform noise in -1 to 1, drawn anew at each decision
+};
+
+// A network reads value / unit. The controller's integer is value * raw_per_value, rounded.
+struct ElementFacts {
+  std::string_view name;
+  double unit;  // SI: the circle on which the ball starts, the robot's steady speed, half a turn, ...
+  double raw_per_value;  // um, mm/s, binary angle (2^16 is the full circle), decisions; 0: experiments only
+  float mirror;          // factor of the value in a mirror along the heading; 0 if it has no mirror image
+};
+
 inline constexpr double position_unit_m = 2.0;
 inline constexpr double speed_unit_m_s = 2.55;
 inline constexpr double angle_unit_rad = 3.14159265358979323846;
 
-inline constexpr int state_elements = 6;
-using Features = Eigen::Matrix<float, state_elements, 1>;
+[[nodiscard]] const ElementFacts& facts_of(Element element);
+[[nodiscard]] std::span<const ElementFacts> all_elements();
 
-[[nodiscard]] Features features(const RcsState& state);
+// One input of a network. Before the first decision of an episode everything was as at the first.
+struct StateInput {
+  Element element = Element::ball_x;
+  int decisions_ago = 0;  // 0 to greatest_look_back
+  bool operator==(const StateInput&) const = default;
+};
+inline constexpr int greatest_look_back = 4;  // as the firmware's
 
-// The same situation seen in a mirror along the heading. The task is symmetric: reward and best action stay.
-[[nodiscard]] Features mirrored(const Features& features);
+using StateInputs = std::vector<StateInput>;
 
-// The state in the firmware's integers: um, mm/s and a binary angle (2^16 is the full circle), rounded.
-using RawState = std::array<std::int32_t, state_elements>;
+[[nodiscard]] StateInputs rcs_inputs();  // the paper's RCS: six
+[[nodiscard]] StateInputs acs_inputs();  // the paper's ACS: ten
 
-[[nodiscard]] RawState raw_state(const RcsState& state);
-[[nodiscard]] RcsState state_of(const RawState& raw);
+// The last decisions' sights, the newest first.
+class History {
+ public:
+  void begin(const Sight& first) { sights_.fill(first); }
+  void add(const Sight& sight);
+  [[nodiscard]] const Sight& ago(int decisions) const { return sights_[static_cast<std::size_t>(decisions)]; }
+
+ private:
+  std::array<Sight, greatest_look_back + 1> sights_{};
+};
+
+using Features = Eigen::VectorXf;  // one value an input
+
+// Writes into `features`, which has the inputs' size already.
+void see(const StateInputs& inputs, const History& history, sil::Random& dummies, Features& features);
+
+// The same situation seen in a mirror along the heading is the features times these factors, element by
+// element. The task is symmetric: the reward stays.
+[[nodiscard]] Features mirror_factors(const StateInputs& inputs);
+
+// The controller's integers of the same inputs. No input may be for experiments only.
+using RawState = std::vector<std::int32_t>;
+
+[[nodiscard]] RawState raw_state(const StateInputs& inputs, const History& history);
+[[nodiscard]] Features features_of(const StateInputs& inputs, std::span<const std::int32_t> raw);
 
 }  // namespace striker::training

@@ -13,14 +13,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 constexpr double ball_distance_m = 2.0;
-constexpr double aim_radius_m = 0.5;  // around the robot's centre
-constexpr double slowest_ball_m_s = 1.0;
-constexpr double fastest_ball_m_s = 3.0;
-
-// Paper, section IV.A.
-constexpr double waiting_reward = -0.1;
-constexpr double angle_reward = 3.0;
-constexpr double speed_reward_s_m = 3.92;
 
 constexpr double measured_after_s = 0.100;
 constexpr double kick_angle_rad = 15.0 * pi / 180.0;
@@ -70,23 +62,23 @@ Pose draw_pose(std::uint64_t seed, std::uint64_t episode) {
 }
 
 // In the robot's frame.
-BallState draw_ball(std::uint64_t seed, std::uint64_t episode) {
+BallState draw_ball(std::uint64_t seed, std::uint64_t episode, const KickRules& rules) {
   Random random(seed, episode, ball_stream);
   const Vec2 from = ball_distance_m * along(random.uniform(-pi, pi));
-  const double speed_m_s = random.uniform(slowest_ball_m_s, fastest_ball_m_s);
-  const double aim_distance_m = aim_radius_m * std::sqrt(random.uniform());
+  const double speed_m_s = random.uniform(rules.slowest_ball_m_s, rules.fastest_ball_m_s);
+  const double aim_distance_m = rules.aim_radius_m * std::sqrt(random.uniform());
   const Vec2 aim = aim_distance_m * along(random.uniform(-pi, pi));
   return {.position_m = from, .velocity_m_s = speed_m_s * along(angle_rad(aim - from))};
 }
 
 }  // namespace
 
-KickStart draw_kick(std::uint64_t seed, std::uint64_t episode, PoseMode pose) {
+KickStart draw_kick(std::uint64_t seed, std::uint64_t episode, PoseMode pose, const KickRules& rules) {
   KickStart start;
   if (pose == PoseMode::anywhere) {
     start.robot = draw_pose(seed, episode);
   }
-  const BallState ball = draw_ball(seed, episode);
+  const BallState ball = draw_ball(seed, episode, rules);
   const Vec2 centre{start.robot.x_m, start.robot.y_m};
   start.ball.position_m = centre + rotated(ball.position_m, start.robot.heading_rad);
   start.ball.velocity_m_s = rotated(ball.velocity_m_s, start.robot.heading_rad);
@@ -108,7 +100,7 @@ template <typename World>
 void KickEpisode::begin(World& world, const KickStart& start) {
   world.place_robot(0, start.robot);
   world.place_ball(start.ball);
-  *this = KickEpisode{};
+  *this = KickEpisode(rules_);
   target_heading_rad_ = start.robot.heading_rad;
 }
 
@@ -118,22 +110,30 @@ void KickEpisode::step(World& world) {
   const Vec2 robot_velocity = world.robot_velocity_m_s(0);
   const Vec2 ball = world.ball().position_m;
   world.step();
-  if (!outcome_.contact) {
-    const auto normal = world.ball_contact(0);
-    if (normal && decision_ < kick_decisions) {
-      const Vec2 heading = along(robot.heading_rad);
-      outcome_.contact = true;
-      outcome_.contact_decision = decision_;
-      outcome_.theta_contact_rad =
-          wrapped_rad(angle_rad(ball - Vec2{robot.x_m, robot.y_m}) - target_heading_rad_);
-      outcome_.v_contact_m_s = dot(robot_velocity, heading);
-      // The faces' normals are 90 degrees apart, and those at an edge lie between: within 45 degrees of the
-      // heading the front face is the nearest.
-      outcome_.front_face = dot(*normal, heading) > std::cos(0.25 * pi);
-      steps_to_measurement_ = static_cast<int>(std::lround(measured_after_s / world.step_s()));
-    }
-  } else if (!outcome_.ball_measured && --steps_to_measurement_ == 0) {
+  if (outcome_.contact && !outcome_.ball_measured && --steps_to_measurement_ == 0) {
     measure_ball(world.ball().velocity_m_s);
+  }
+  const bool pays =
+      decision_ < kick_decisions && !contact_due_ && (!outcome_.contact || rules_.every_contact);
+  const auto normal = pays ? world.ball_contact(0) : std::nullopt;
+  if (!normal) {
+    return;
+  }
+  const Vec2 heading = along(robot.heading_rad);
+  const double theta_rad = wrapped_rad(angle_rad(ball - Vec2{robot.x_m, robot.y_m}) - target_heading_rad_);
+  const double v_m_s = dot(robot_velocity, heading);
+  contact_due_ = true;
+  contact_reward_ = rules_.angle_reward * std::cos(theta_rad) +
+                    rules_.speed_reward_s_m * (rules_.signed_speed ? v_m_s : std::abs(v_m_s));
+  if (!outcome_.contact) {
+    outcome_.contact = true;
+    outcome_.contact_decision = decision_;
+    outcome_.theta_contact_rad = theta_rad;
+    outcome_.v_contact_m_s = v_m_s;
+    // The faces' normals are 90 degrees apart, and those at an edge lie between: within 45 degrees of the
+    // heading the front face is the nearest.
+    outcome_.front_face = dot(*normal, heading) > std::cos(0.25 * pi);
+    steps_to_measurement_ = static_cast<int>(std::lround(measured_after_s / world.step_s()));
   }
 }
 
@@ -150,13 +150,9 @@ double KickEpisode::end_decision() {
     return 0.0;
   }
   ++decision_;
-  double reward = 0.0;
-  if (!outcome_.contact) {
-    reward = waiting_reward;
-  } else if (!contact_paid_) {
-    contact_paid_ = true;
-    reward = angle_reward * std::cos(outcome_.theta_contact_rad) + speed_reward_s_m * outcome_.v_contact_m_s;
-  }
+  const double waiting = outcome_.contact ? 0.0 : rules_.waiting_reward;
+  const double reward = contact_due_ ? contact_reward_ : waiting;
+  contact_due_ = false;
   outcome_.reward += reward;
   return reward;
 }

@@ -17,6 +17,18 @@ inline constexpr double decision_period_s = 0.050;
 
 enum class PoseMode { origin, anywhere };
 
+// What the paper leaves open, or a user's own task changes. The defaults are the official task.
+struct KickRules {
+  double slowest_ball_m_s = 1.0;
+  double fastest_ball_m_s = 3.0;
+  double aim_radius_m = 0.5;  // around the robot's centre
+  double waiting_reward = -0.1;
+  double angle_reward = 3.0;
+  double speed_reward_s_m = 3.92;
+  bool signed_speed = true;    // V_contact is negative when the robot drives backward
+  bool every_contact = false;  // each decision with a contact is paid, not only the first one's
+};
+
 struct KickStart {
   Pose robot;
   BallState ball;
@@ -24,7 +36,8 @@ struct KickStart {
 
 // Episode i is a pure function of (seed, i), drawn in the robot's frame; the pose comes from a stream of its
 // own, so that it changes nothing else.
-[[nodiscard]] KickStart draw_kick(std::uint64_t seed, std::uint64_t episode, PoseMode pose);
+[[nodiscard]] KickStart draw_kick(std::uint64_t seed, std::uint64_t episode, PoseMode pose,
+                                  const KickRules& rules = {});
 
 // The ball `ahead_s` seconds before the start, led back along its path kinematically: what a camera would
 // have seen of an episode that begins at `start`.
@@ -50,6 +63,8 @@ struct KickOutcome {
 //   begin, then 40 times: (steps of 50 ms in all, end_decision), then steps of 100 ms to see the ball leave.
 class KickEpisode {
  public:
+  explicit KickEpisode(const KickRules& rules = {}) : rules_(rules) {}
+
   // World is sil::World or PlanarWorld.
   template <typename World>
   void begin(World& world, const KickStart& start);  // places robot and ball
@@ -61,10 +76,12 @@ class KickEpisode {
  private:
   void measure_ball(Vec2 velocity_m_s);
 
+  KickRules rules_;
   double target_heading_rad_ = 0.0;
   int decision_ = 0;
   int steps_to_measurement_ = 0;
-  bool contact_paid_ = false;
+  bool contact_due_ = false;  // this decision had a contact that pays
+  double contact_reward_ = 0.0;
   KickOutcome outcome_;
 };
 

@@ -15,6 +15,10 @@ class Random {
 
   [[nodiscard]] constexpr std::uint64_t next() { return mix(state_ += step); }
 
+  // Where the stream stands, and a stream that goes on from there: for checkpoints.
+  [[nodiscard]] constexpr std::uint64_t state() const { return state_; }
+  constexpr void resume(std::uint64_t state) { state_ = state; }
+
   // Uniform in [0, 1): the upper 53 bits, so that every value is exact.
   [[nodiscard]] constexpr double uniform() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
 

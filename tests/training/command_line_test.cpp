@@ -56,7 +56,7 @@ class CommandLine : public testing::Test {
 
 TEST_F(CommandLine, HelpNamesEveryOption) {
   const auto help = [this](const char* program) { return run(fmt::format("{} --help", program)).out; };
-  for (const char* option : {"--config", "--seed", "--out"}) {
+  for (const char* option : {"--config", "--set", "--seed", "--out", "--resume"}) {
     EXPECT_NE(help(STRIKER_TRAIN).find(option), std::string::npos) << option;
   }
   for (const char* option :
@@ -86,7 +86,9 @@ TEST_F(CommandLine, TrainEvaluateExportTwiceGivesTheSameBytes) {
   EXPECT_EQ(content_of(path("a.json")), content_of(path("b.json")));
   const std::string curve = content_of(path("a") + "/learning_curve.csv");
   EXPECT_EQ(curve, content_of(path("b") + "/learning_curve.csv"));
-  EXPECT_EQ(curve.find("episode,steps,reward,moving_average_250,contact,epsilon,loss\n"), 0U);
+  EXPECT_EQ(
+      curve.find("episode,steps,reward,moving_average_250,contact,epsilon,learning_rate,loss,td_error,q\n"),
+      0U);
   EXPECT_EQ(std::count(curve.begin(), curve.end(), '\n'), 31);
 }
 
@@ -153,7 +155,7 @@ TEST_F(CommandLine, EvaluateRefusesBadInput) {
   const std::string whole = content_of(model);
   write_to(path("cut.safetensors"), whole.substr(0, whole.size() - 100));
   Parameters broken = some_parameters(1);
-  broken(100) = std::numeric_limits<float>::quiet_NaN();
+  broken.values(100) = std::numeric_limits<float>::quiet_NaN();
   save_model({.parameters = broken, .metadata = {}}, path("nan.safetensors"));
   const auto evaluate_with = [&](const std::string& file, const std::string& more) {
     return fmt::format("{} --model {} {}", STRIKER_EVALUATE, file, more);
@@ -187,7 +189,8 @@ TEST_F(CommandLine, ExportRefusesBadInput) {
   write_to(path("cut.safetensors"), whole.substr(0, 4000));
   expect_refusal(fmt::format("{} {} -o {}", STRIKER_EXPORT, path("cut.safetensors"), path("h.hpp")),
                  "truncated");
-  save_model({.parameters = some_parameters(1), .metadata = {{"equations", "printed"}}}, path("printed"));
+  const std::string printed = parse_config("[task]\nequations = \"printed\"\n", "f").text;
+  save_model({.parameters = some_parameters(1), .metadata = {{"configuration", printed}}}, path("printed"));
   expect_refusal(fmt::format("{} {} -o {}", STRIKER_EXPORT, path("printed"), path("h.hpp")), "equations");
   expect_refusal(fmt::format("{} {}", STRIKER_EXPORT, model), "--output");
   EXPECT_FALSE(std::filesystem::exists(path("h.hpp")));

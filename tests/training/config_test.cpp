@@ -17,7 +17,7 @@ const std::vector<Wrong> wrong = {
     {"UnknownKey", "gamma = 0.95", "gamma = 0.95\ngama = 0.9", {"learner.gama", "learner.gamma"}},
     {"UnknownTable", "[optimiser]", "[extra]\nkey = 1\n[optimiser]", {"extra.key"}},
     {"UnknownTopKey", "[run]", "key = 1\n[run]", {"key is not a key"}},
-    {"MissingKey", "n_step = 1", "", {"learner.n_step is missing"}},
+    {"NoTable", "[ball]", "[nothing]", {"nothing.aim_radius_m is not a key"}},
     {"TextForNumber", "batch = 64", "batch = \"64\"", {"learner.batch = '64'", "2 to 4096"}},
     {"FractionForWhole", "batch = 64", "batch = 64.5", {"learner.batch = 64.5", "whole number"}},
     {"NumberForTruth", "huber = false", "huber = 0", {"learner.huber = 0", "true or false"}},
@@ -30,6 +30,20 @@ const std::vector<Wrong> wrong = {
     {"TooSmall", "batch = 64", "batch = 1", {"learner.batch = 1", "2 to 4096"}},
     {"BeyondInt", "batch = 64", "batch = 4294967360", {"learner.batch = 4294967360"}},
     {"NotANumber", "learning_rate = 1e-3", "learning_rate = nan", {"optimiser.learning_rate = nan"}},
+    {"UnknownElement",
+     "inputs = \"rcs\"",
+     "inputs = [\"ball_z\"]",
+     {"task.inputs", "\"ball_z\" is no element"}},
+    {"TooLongAgo", "inputs = \"rcs\"", "inputs = [\"ball_x@9\"]", {"task.inputs", "ball_x@9", "1 to 4"}},
+    {"NoInputs", "inputs = \"rcs\"", "inputs = []", {"task.inputs"}},
+    {"OneAction",
+     "actions = [[2.55, 2.55], [0.0, 0.0], [-2.55, -2.55]]",
+     "actions = [[0.0, 0.0]]",
+     {"task.actions", "2 to 16"}},
+    {"NoPair", "[0.0, 0.0], ", "[0.0], ", {"task.actions", "2 numbers"}},
+    {"TooFast", "[0.0, 0.0], ", "[0.0, 3.0], ", {"task.actions", "2.55"}},
+    {"SpeedsTurned", "speed_m_s = [1.0, 3.0]", "speed_m_s = [3.0, 1.0]", {"ball.speed_m_s", "lower"}},
+    {"HalfANeuron", "hidden = [64, 64]", "hidden = [64, 0.5]", {"network.hidden"}},
     {"NoToml", "[optimiser]", "[optimiser", {"line "}},
 };
 
@@ -57,12 +71,55 @@ TEST(Config, TheCommittedOnesAreRead) {
   const std::filesystem::path configs = STRIKER_CONFIGS;
   const Config paper = load_config(configs / "paper.toml");
   EXPECT_EQ(paper.name, "paper");
-  EXPECT_EQ(paper.text, paper_text());
-  EXPECT_EQ(paper.episodes, 5000);
+  EXPECT_EQ(paper.run.episodes, 5000);
+  EXPECT_EQ(paper.environments.front().inputs, rcs_inputs());
+  EXPECT_EQ(paper.shape, Shape{});
   EXPECT_EQ(paper.learner.n_step, 1);
   EXPECT_FALSE(paper.learner.double_dqn);
   EXPECT_EQ(paper.environments.size(), 1U);
   EXPECT_EQ(load_config(configs / "kick.toml").name, "kick");
+}
+
+// What a file leaves out is paper.toml's, and the text that is kept names every key.
+TEST(Config, EmptyIsThePapers) {
+  EXPECT_EQ(parse_config("", "f").text, parse_config(paper_text(), "f").text);
+  EXPECT_EQ(default_configuration(), paper_text());
+  const Config config = parse_config("[learner]\ngamma = 0.5\n", "f");
+  EXPECT_EQ(config.learner.gamma, 0.5);
+  EXPECT_EQ(parse_config(config.text, "g").text, config.text);
+  EXPECT_EQ(parse_config(config.text, "g").learner.gamma, 0.5);
+}
+
+TEST(Config, ChangesOverrideTheFile) {
+  const std::string file = "[learner]\ngamma = 0.5\n";
+  EXPECT_EQ(parse_config(file, "f", {"learner.gamma=0.75", "run.episodes = 7"}).learner.gamma, 0.75);
+  EXPECT_EQ(parse_config(file, "f", {"run.episodes=7"}).run.episodes, 7);
+  EXPECT_THROW((void)parse_config(file, "f", {"learner.gama=0.75"}), std::runtime_error);
+  EXPECT_THROW((void)parse_config(file, "f", {"learner.gamma"}), std::runtime_error);
+}
+
+TEST(Config, InputsMayBeDummiesAndPast) {
+  const Config config = parse_config("[task]\ninputs = [\"ball_x\", \"robot_speed@2\"]\ndummies = 3\n", "f");
+  const StateInputs expected = {{.element = Element::ball_x},
+                                {.element = Element::robot_speed, .decisions_ago = 2},
+                                {.element = Element::dummy},
+                                {.element = Element::dummy},
+                                {.element = Element::dummy}};
+  EXPECT_EQ(config.environments.front().inputs, expected);
+  EXPECT_EQ(config.shape.inputs, 5);
+}
+
+// Mirrored samples need inputs and actions that have a mirror image.
+TEST(Config, TheMirrorNeedsAnImage) {
+  const std::string mirror = "[learner]\nmirror = true\n";
+  EXPECT_THROW((void)parse_config(mirror + "[task]\ninputs = \"acs\"\n", "f"), std::runtime_error);
+  EXPECT_THROW((void)parse_config(mirror + "[task]\nactions = [[1.0, 2.0], [0.0, 0.0]]\n", "f"),
+               std::runtime_error);
+  const Config turning =
+      parse_config(mirror + "[task]\nactions = [[1.0, 2.0], [0.0, 0.0], [2.0, 1.0]]\n", "f");
+  const auto& actions = turning.environments.front().actions;
+  EXPECT_EQ(mirrored_action(actions, 0), 2);
+  EXPECT_EQ(mirrored_action(actions, 1), 1);
 }
 
 TEST(Config, WholeNumbersServeWhereFractionsMay) {

@@ -12,9 +12,23 @@
 namespace striker::training {
 namespace {
 
-Model some_model() {
-  return {.parameters = some_parameters(1),
-          .metadata = {{"configuration", "text"}, {"configuration_name", "test"}, {"seed", "1"}}};
+Model some_model(const Shape& shape = {}) {
+  return {.parameters = some_parameters(1, shape),
+          .metadata = {{"configuration_name", "test"}, {"seed", "1"}}};
+}
+
+// Twelve inputs and five actions, two of which turn.
+EnvConfig another_task() {
+  EnvConfig task;
+  task.inputs = rcs_inputs();
+  for (StateInput input : rcs_inputs()) {
+    input.decisions_ago = 1;
+    task.inputs.push_back(input);
+  }
+  task.inputs.back() = {.element = Element::decisions_left};
+  task.actions.push_back({.left_m_s = 2.0, .right_m_s = 1.0});
+  task.actions.push_back({.left_m_s = 1.0, .right_m_s = 2.0});
+  return task;
 }
 
 // Does a program with this header and these static assertions compile?
@@ -33,7 +47,7 @@ bool compiles(const std::string& header, const std::string& assertions, const Te
 TEST(Export, TheHeaderProvesItself) {
   const TemporaryDirectory directory;
   const Model model = some_model();
-  const Export exported = export_model(model);
+  const Export exported = export_model(model, {});
   const std::string header = header_of(exported, model);
   EXPECT_TRUE(
       compiles(header,
@@ -51,8 +65,8 @@ TEST(Export, TheHeaderProvesItself) {
 
 TEST(Export, IsAFunctionOfTheModel) {
   const Model model = some_model();
-  const std::string header = header_of(export_model(model), model);
-  EXPECT_EQ(header_of(export_model(model), model), header);
+  const std::string header = header_of(export_model(model, {}), model);
+  EXPECT_EQ(header_of(export_model(model, {}), model), header);
   std::istringstream lines(header);
   for (std::string line; std::getline(lines, line);) {
     EXPECT_LE(line.size(), 110U) << line;
@@ -60,22 +74,22 @@ TEST(Export, IsAFunctionOfTheModel) {
 }
 
 TEST(Export, GoldenVectorsAreTheNetworksAnswersAndSaturateEveryInput) {
-  const Export exported = export_model(some_model());
+  const Export exported = export_model(some_model(), {});
   const auto& goldens = exported.policy.golden_vectors;
   ASSERT_EQ(goldens.size(), 16U);
-  std::array<int, state_elements> high{};
-  std::array<int, state_elements> low{};
+  std::array<int, 6> high{};
+  std::array<int, 6> low{};
   for (const GoldenVector& golden : goldens) {
     const IntegerAnswer answer = evaluate(exported.policy.network, golden.raw);
     EXPECT_EQ(answer.sums, golden.answer.sums);
     EXPECT_EQ(answer.action, golden.answer.action);
-    for (std::size_t i = 0; i < state_elements; ++i) {
-      const bool angle = i + 1 == state_elements;
+    for (std::size_t i = 0; i < high.size(); ++i) {
+      const bool angle = i + 1 == high.size();
       high[i] += golden.raw[i] >= (angle ? 32767 : 100'000'000) ? 1 : 0;
       low[i] += golden.raw[i] <= (angle ? -32768 : -100'000'000) ? 1 : 0;
     }
   }
-  for (std::size_t i = 0; i < state_elements; ++i) {
+  for (std::size_t i = 0; i < high.size(); ++i) {
     EXPECT_GE(high[i], 1) << i;
     EXPECT_GE(low[i], 1) << i;
   }
@@ -83,7 +97,7 @@ TEST(Export, GoldenVectorsAreTheNetworksAnswersAndSaturateEveryInput) {
 
 TEST(Export, TheReportSaysWhatWasFound) {
   const Model model = some_model();
-  const Export exported = export_model(model);
+  const Export exported = export_model(model, {});
   const auto report = nlohmann::json::parse(report_of(exported, model));
   EXPECT_EQ(report.at("identity"), fmt::format("{:08x}", identity_of(exported.policy)));
   EXPECT_EQ(report.at("layers").size(), 3U);
@@ -92,10 +106,34 @@ TEST(Export, TheReportSaysWhatWasFound) {
   EXPECT_GT(report.at("validation_states").get<int>(), 1000);
 }
 
-TEST(Export, PrintedEquationsAreNotForTheFirmware) {
-  Model model = some_model();
-  model.metadata["equations"] = "printed";
-  EXPECT_THROW((void)export_model(model), std::runtime_error);
+// The header follows the task: its inputs, their past, its actions, the network's shape.
+TEST(Export, AnotherTasksHeaderProvesItself) {
+  const TemporaryDirectory directory;
+  const Model model = some_model({.inputs = 12, .hidden1 = 32, .hidden2 = 16, .actions = 5});
+  const std::string header = header_of(export_model(model, another_task()), model);
+  EXPECT_TRUE(
+      compiles(header,
+               "static_assert(core::sums_fit(policy::trained));\n"
+               "static_assert(core::scales_are_valid(policy::trained));\n"
+               "static_assert(core::inputs_are_known(policy::trained));\n"
+               "static_assert(core::identity_of(policy::trained) == policy::trained.identity);\n"
+               "static_assert(policy::trained.inputs == 12 && policy::trained.hidden1 == 32);\n"
+               "static_assert(policy::trained.hidden2 == 16 && policy::trained.actions == 5);\n"
+               "static_assert(policy::trained.state[6].decisions_ago == 1);\n"
+               "static_assert(policy::trained.state[11].element == core::StateElement::decisions_left);\n"
+               "static_assert(policy::trained.set_points[3].left_mm_s == 2000);\n"
+               "static_assert(policy::trained.set_points[3].right_mm_s == 1000);\n",
+               directory))
+      << content_of(directory / "errors");
+}
+
+TEST(Export, WhatTheFirmwareCannotServeIsRefused) {
+  EnvConfig printed;
+  printed.equations = Equations::printed;
+  EXPECT_THROW((void)export_model(some_model(), printed), std::runtime_error);
+  EnvConfig field;
+  field.inputs = acs_inputs();
+  EXPECT_THROW((void)export_model(some_model({.inputs = 10}), field), std::runtime_error);
 }
 
 }  // namespace

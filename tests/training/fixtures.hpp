@@ -13,8 +13,8 @@
 #include <string>
 
 #include "config.hpp"
-#include "dqn.hpp"
 #include "model.hpp"
+#include "training_run.hpp"
 
 namespace striker::training {
 
@@ -64,9 +64,9 @@ inline std::string paper_text() {
 // The paper's learner on a run of seconds, with every option that adds code switched on.
 inline Config short_config(int episodes) {
   Config config = parse_config(paper_text(), "short.toml");
-  config.environments = {{.velocities = Velocities::exact}, {.velocities = Velocities::estimated}};
-  config.episodes = episodes;
-  config.validation_episodes = 0;
+  config.environments = {{}, {.velocities = Velocities::estimated}};
+  config.run.episodes = episodes;
+  config.run.validation_episodes = 0;
   config.learner.double_dqn = true;
   config.learner.mirror = true;
   config.learner.n_step = 5;
@@ -76,17 +76,30 @@ inline Config short_config(int episodes) {
   return config;
 }
 
+// A whole training in memory.
+inline std::vector<CurveRow> play_all(Training& training) {
+  std::vector<CurveRow> rows;
+  while (!training.done()) {
+    rows.push_back(training.play_episode());
+  }
+  return rows;
+}
+
 // Weights like a trained network's, in size.
-inline Parameters some_parameters(unsigned seed) {
-  Parameters parameters = initial_parameters(seed);
+inline Parameters some_parameters(unsigned seed, const Shape& shape = {}) {
+  Parameters parameters = initial_parameters(shape, seed);
   std::mt19937 random(seed);
   std::normal_distribution<float> bias(0.0F, 0.1F);
-  for (float& b : biases<0>(parameters)) {
-    b = bias(random);
+  for (const int layer : {0, 1}) {
+    for (float& b : parameters.biases(layer)) {
+      b = bias(random);
+    }
   }
-  for (float& b : biases<1>(parameters)) {
-    b = bias(random);
-  }
+  return parameters;
+}
+
+inline Parameters scaled(Parameters parameters, float factor) {
+  parameters.values *= factor;
   return parameters;
 }
 

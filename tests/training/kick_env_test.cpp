@@ -11,22 +11,21 @@
 namespace striker::training {
 namespace {
 
-int scripted(const RcsState& state) {
+int scripted(const KickEnv& seen) {
+  const RcsState& state = seen.state();
   return state.ball_x_m < 0.4 ? 2 : static_cast<int>(std::abs(state.ball_y_m) > 0.2);
 }
 
-sil::KickStart start_of(std::uint64_t episode) {
-  return sil::draw_kick(5, episode, sil::PoseMode::origin);
-}
+constexpr std::uint64_t seed = 5;
 
 void expect_the_same_alone_and_after_others(const EnvConfig& config) {
   KickEnv busy(config);
   for (std::uint64_t i = 0; i < 200; ++i) {
-    play(busy, start_of(i), scripted);
+    play(busy, seed, i, scripted);
   }
   KickEnv fresh(config);
-  const auto late = play(busy, start_of(200), scripted);
-  const auto alone = play(fresh, start_of(200), scripted);
+  const auto late = play(busy, seed, 200, scripted);
+  const auto alone = play(fresh, seed, 200, scripted);
   EXPECT_EQ(late.reward, alone.reward);
   EXPECT_EQ(late.ball_speed_m_s, alone.ball_speed_m_s);
   EXPECT_EQ(late.theta_contact_rad, alone.theta_contact_rad);
@@ -34,8 +33,8 @@ void expect_the_same_alone_and_after_others(const EnvConfig& config) {
 
 TEST(KickEnv, AnEpisodeIsTheSameAloneAndAfterOthers) {
   for (const World world : {World::fast, World::full}) {
-    expect_the_same_alone_and_after_others({.velocities = Velocities::exact, .world = world});
-    expect_the_same_alone_and_after_others({.velocities = Velocities::estimated, .world = world});
+    expect_the_same_alone_and_after_others({.world = world});
+    expect_the_same_alone_and_after_others({.world = world, .velocities = Velocities::estimated});
   }
 }
 
@@ -43,7 +42,7 @@ TEST(KickEnv, RewardsOfTheStepsAddUpToTheOutcome) {
   KickEnv env({});
   int contacts = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
-    env.reset(start_of(i));
+    env.reset(seed, i);
     double sum = 0.0;
     int steps = 0;
     int told = 0;
@@ -65,7 +64,7 @@ TEST(KickEnv, RewardsOfTheStepsAddUpToTheOutcome) {
 TEST(KickEnv, PlayMeasuresEveryContact) {
   KickEnv env({});
   for (std::uint64_t i = 0; i < 300; ++i) {
-    const auto outcome = play(env, start_of(i), scripted);
+    const auto outcome = play(env, seed, i, scripted);
     EXPECT_EQ(outcome.contact, outcome.ball_measured) << i;
   }
 }
@@ -76,12 +75,11 @@ TEST(KickEnv, BothWorldsTellTheSameEpisode) {
   KickEnv full({.world = World::full});
   int contacts = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
-    const auto a = play(fast, start_of(i), scripted);
-    const Features seen = features(fast.state());
-    const auto b = play(full, start_of(i), scripted);
+    const auto a = play(fast, seed, i, scripted);
+    const auto b = play(full, seed, i, scripted);
     EXPECT_EQ(a.contact_decision, b.contact_decision) << i;
     EXPECT_NEAR(a.reward, b.reward, 3e-3) << i;
-    EXPECT_LT((seen - features(full.state())).norm(), a.contact ? 0.3F : 1e-3F) << i;
+    EXPECT_LT((fast.features() - full.features()).norm(), a.contact ? 0.3F : 1e-3F) << i;
     EXPECT_EQ(fast.simulated_s(), full.simulated_s());
     contacts += a.contact ? 1 : 0;
   }
@@ -94,8 +92,8 @@ TEST(KickEnv, EstimatedBallVelocityIsTheTrueOneWithinItsLag) {
   KickEnv exact({});
   KickEnv estimated({.velocities = Velocities::estimated});
   for (std::uint64_t i = 0; i < 50; ++i) {
-    exact.reset(start_of(i));
-    estimated.reset(start_of(i));
+    exact.reset(seed, i);
+    estimated.reset(seed, i);
     for (int t = 0; t < 10 && !exact.outcome().contact; ++t) {
       const RcsState& a = exact.state();
       const RcsState& b = estimated.state();
@@ -116,20 +114,85 @@ TEST(KickEnv, NoEvaluationMeetsATrainingEpisode) {
   std::set<double> balls;
   for (const std::uint64_t first : firsts) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
-      balls.insert(start_of(first + i).ball.position_m.x);
+      balls.insert(sil::draw_kick(seed, first + i, sil::PoseMode::origin).ball.position_m.x);
     }
   }
   EXPECT_EQ(balls.size(), 4000U);
 }
 
 TEST(KickEnv, TheStateAtTheStartIsThePosesIndependent) {
-  KickEnv env({});
+  KickEnv origin({});
+  KickEnv anywhere({.pose = sil::PoseMode::anywhere});
   for (std::uint64_t i = 0; i < 20; ++i) {
-    env.reset(sil::draw_kick(5, i, sil::PoseMode::origin));
-    const Features here = features(env.state());
-    env.reset(sil::draw_kick(5, i, sil::PoseMode::anywhere));
-    EXPECT_LT((features(env.state()) - here).norm(), 1e-5F);
+    origin.reset(seed, i);
+    anywhere.reset(seed, i);
+    EXPECT_LT((origin.features() - anywhere.features()).norm(), 1e-5F);
   }
+}
+
+// A user's own actions, inputs and reward.
+TEST(KickEnv, ATaskOfOnesOwn) {
+  EnvConfig task;
+  task.actions = {{.left_m_s = 1.0, .right_m_s = -1.0}, {.left_m_s = 0.0, .right_m_s = 0.0}};
+  task.inputs = {{.element = Element::field_robot_heading}, {.element = Element::decisions_left}};
+  task.rules.waiting_reward = -1.0;
+  KickEnv env(task);
+  env.reset(seed, 1);
+  EXPECT_EQ(env.features()[1], 1.0F);
+  EXPECT_EQ(env.step(0).reward, -1.0);
+  EXPECT_EQ(env.features()[1], 39.0F / 40.0F);
+  EXPECT_LT(env.features()[0], 0.0F);  // it turned to the right
+}
+
+// A reading of the paper: the contact is paid in every decision, and the episode goes on.
+TEST(KickEnv, EveryContactMayPay) {
+  EnvConfig every;
+  every.rules.every_contact = true;
+  every.goes_on = true;
+  KickEnv official({});
+  KickEnv reading(every);
+  int more = 0;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const auto rewards = [i](KickEnv& env) {
+      sil::Random random(seed, i, 1);
+      env.reset(seed, i);
+      std::vector<double> paid;
+      for (bool last = false; !last;) {
+        const StepResult result = env.step(static_cast<int>(random.below(3)));
+        paid.push_back(result.reward);
+        last = result.last;
+        EXPECT_EQ(result.end, result.last || (result.contact && !env.config().goes_on));
+      }
+      return paid;
+    };
+    const auto a = rewards(official);
+    const auto b = rewards(reading);
+    const auto contact = static_cast<std::size_t>(std::max(0, official.outcome().contact_decision));
+    for (std::size_t t = 0; t < a.size(); ++t) {
+      const bool after = official.outcome().contact && t > contact;
+      EXPECT_TRUE(after ? a[t] == 0.0 : a[t] == b[t]);
+      more += after && b[t] != 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(more, 5);
+}
+
+TEST(KickEnv, UnsignedSpeedPaysBackwardHits) {
+  EnvConfig reading;
+  reading.rules.signed_speed = false;
+  KickEnv official({});
+  KickEnv unsigned_speed(reading);
+  int backward = 0;
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    const auto reverse = [](const KickEnv& /*seen*/) { return 2; };
+    const auto a = play(official, seed, i, reverse);
+    const auto b = play(unsigned_speed, seed, i, reverse);
+    if (a.contact && a.v_contact_m_s < 0.0) {
+      EXPECT_NEAR(b.reward - a.reward, -2.0 * 3.92 * a.v_contact_m_s, 1e-9);
+      ++backward;
+    }
+  }
+  EXPECT_GT(backward, 10);
 }
 
 }  // namespace

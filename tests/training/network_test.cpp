@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
+#include <string>
 
 #include "fixtures.hpp"
 
@@ -12,10 +14,10 @@ namespace {
 
 constexpr int batch = 16;
 
-StateBatch some_states(unsigned seed) {
+Eigen::MatrixXf some_states(unsigned seed, int inputs) {
   std::mt19937 random(seed);
   std::normal_distribution<float> normal;
-  StateBatch states(state_elements, batch);
+  Eigen::MatrixXf states(inputs, batch);
   for (Eigen::Index i = 0; i < states.size(); ++i) {
     states.data()[i] = normal(random);
   }
@@ -23,12 +25,13 @@ StateBatch some_states(unsigned seed) {
 }
 
 // The Q values in double precision, neuron by neuron: what the matrix code must agree with.
-std::vector<double> plain_q(const Eigen::VectorXd& parameters, const Eigen::VectorXd& state) {
+std::vector<double> plain_q(const Shape& shape, const Eigen::VectorXd& parameters,
+                            const Eigen::VectorXd& state) {
   std::vector<double> values(state.begin(), state.end());
-  for (int l = 0; l < layer_count; ++l) {
-    const auto inputs = static_cast<std::size_t>(widths[static_cast<std::size_t>(l)]);
-    const auto outputs = static_cast<std::size_t>(widths[static_cast<std::size_t>(l) + 1]);
-    const double* weight = parameters.data() + layer_offset(l);
+  const double* weight = parameters.data();
+  for (std::size_t l = 0; l < layer_count; ++l) {
+    const auto inputs = static_cast<std::size_t>(shape.widths()[l]);
+    const auto outputs = static_cast<std::size_t>(shape.widths()[l + 1]);
     std::vector<double> next;
     for (std::size_t j = 0; j < outputs; ++j) {
       double sum = weight[inputs * outputs + j];
@@ -37,33 +40,52 @@ std::vector<double> plain_q(const Eigen::VectorXd& parameters, const Eigen::Vect
       }
       next.push_back(l + 1 < layer_count ? std::max(0.0, sum) : sum);
     }
+    weight += (inputs + 1) * outputs;
     values = next;
+  }
+  if (shape.dueling) {
+    const double value = values.back();
+    values.pop_back();
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / shape.actions;
+    for (double& q : values) {
+      q += value - mean;
+    }
   }
   return values;
 }
 
-TEST(Network, SingleAndBatchAgreeWithPlainLoops) {
-  const Parameters parameters = some_parameters(1);
-  const StateBatch states = some_states(2);
-  BatchPass pass(batch);
+class Networks : public testing::TestWithParam<Shape> {};
+
+TEST_P(Networks, SingleAndBatchAgreeWithPlainLoops) {
+  const Shape shape = GetParam();
+  const Parameters parameters = some_parameters(1, shape);
+  const Parameters plain_network = folded(parameters);
+  EXPECT_FALSE(plain_network.shape().dueling);
+  const Eigen::MatrixXf states = some_states(2, shape.inputs);
+  Pass pass(shape, batch);
   forward(parameters, states, pass);
+  Actor actor(shape);
+  Actor folded_actor(plain_network.shape());
   for (int i = 0; i < batch; ++i) {
     const Features state = states.col(i);
-    const auto plain = plain_q(parameters.cast<double>(), state.cast<double>());
-    const QValues single = q_values(parameters, state);
-    for (int k = 0; k < actions; ++k) {
+    const auto plain = plain_q(shape, parameters.values.cast<double>(), state.cast<double>());
+    const Eigen::VectorXf single = actor.values(parameters, state);
+    const Eigen::VectorXf from_folded = folded_actor.values(plain_network, state);
+    for (int k = 0; k < shape.actions; ++k) {
       ASSERT_NEAR(single(k), plain[static_cast<std::size_t>(k)], 1e-4);
       ASSERT_NEAR(pass.q(k, i), plain[static_cast<std::size_t>(k)], 1e-4);
+      ASSERT_NEAR(from_folded(k), plain[static_cast<std::size_t>(k)], 1e-4);
     }
   }
 }
 
-TEST(Network, GradientIsThatOfFiniteDifferences) {
-  const Parameters parameters = some_parameters(3);
-  const StateBatch states = some_states(4);
-  const Eigen::MatrixXd q_gradient = Eigen::MatrixXd::Random(actions, batch);
-  BatchPass pass(batch);
-  Parameters gradient;
+TEST_P(Networks, GradientIsThatOfFiniteDifferences) {
+  const Shape shape = GetParam();
+  const Parameters parameters = some_parameters(3, shape);
+  const Eigen::MatrixXf states = some_states(4, shape.inputs);
+  const Eigen::MatrixXd q_gradient = Eigen::MatrixXd::Random(shape.actions, batch);
+  Pass pass(shape, batch);
+  Eigen::VectorXf gradient(parameters.values.size());
   forward(parameters, states, pass);
   backward(parameters, states, pass, q_gradient.cast<float>(), gradient);
 
@@ -71,8 +93,8 @@ TEST(Network, GradientIsThatOfFiniteDifferences) {
   const auto loss = [&](const Eigen::VectorXd& at) {
     double sum = 0.0;
     for (int i = 0; i < batch; ++i) {
-      const auto q = plain_q(at, states.col(i).cast<double>());
-      for (int k = 0; k < actions; ++k) {
+      const auto q = plain_q(shape, at, states.col(i).cast<double>());
+      for (int k = 0; k < shape.actions; ++k) {
         sum += q_gradient(k, i) * q[static_cast<std::size_t>(k)];
       }
     }
@@ -80,8 +102,8 @@ TEST(Network, GradientIsThatOfFiniteDifferences) {
   };
   constexpr double step = 1e-6;
   const double scale = gradient.cwiseAbs().maxCoeff();
-  for (int p = 0; p < parameter_count; p += 7) {
-    Eigen::VectorXd at = parameters.cast<double>();
+  for (Eigen::Index p = 0; p < gradient.size(); p += 7) {
+    Eigen::VectorXd at = parameters.values.cast<double>();
     at(p) += step;
     const double above = loss(at);
     at(p) -= 2.0 * step;
@@ -90,28 +112,37 @@ TEST(Network, GradientIsThatOfFiniteDifferences) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(Shapes, Networks,
+                         testing::Values(Shape{}, Shape{.dueling = true},
+                                         Shape{.inputs = 12, .hidden1 = 40, .hidden2 = 20, .actions = 5}),
+                         [](const auto& tested) {
+                           return std::to_string(tested.param.inputs) +
+                                  (tested.param.dueling ? "Dueling" : "");
+                         });
+
 TEST(Network, AdamIsTheOneOfThePaper) {
-  Parameters parameters = Parameters::Zero();
-  Adam adam;
+  constexpr Eigen::Index size = 5;
+  Eigen::VectorXf parameters = Eigen::VectorXf::Zero(size);
+  Adam adam(size);
   double mean = 0.0;
   double square = 0.0;
   double expected = 0.0;
   for (int t = 1; t <= 50; ++t) {
     const double g = std::sin(t) + 0.3;
-    adam.step(parameters, Parameters::Constant(static_cast<float>(g)), 0.01);
+    adam.step(parameters, Eigen::VectorXf::Constant(size, static_cast<float>(g)), 0.01);
     mean = 0.9 * mean + 0.1 * g;
     square = 0.999 * square + 0.001 * g * g;
     const double unbiased = mean / (1.0 - std::pow(0.9, t));
     expected -= 0.01 * unbiased / (std::sqrt(square / (1.0 - std::pow(0.999, t))) + 1e-8);
   }
   EXPECT_NEAR(parameters(0), expected, 1e-5);
-  EXPECT_NEAR(parameters(parameter_count - 1), expected, 1e-5);
+  EXPECT_NEAR(parameters(size - 1), expected, 1e-5);
 }
 
 TEST(Network, OfEqualValuesTheFirstIsChosen) {
-  EXPECT_EQ(greedy_action(QValues(1.0F, 1.0F, 0.0F)), 0);
-  EXPECT_EQ(greedy_action(QValues(0.0F, 1.0F, 1.0F)), 1);
-  EXPECT_EQ(greedy_action(QValues(0.0F, 1.0F, 2.0F)), 2);
+  EXPECT_EQ(greedy_action(Eigen::Vector3f(1.0F, 1.0F, 0.0F)), 0);
+  EXPECT_EQ(greedy_action(Eigen::Vector3f(0.0F, 1.0F, 1.0F)), 1);
+  EXPECT_EQ(greedy_action(Eigen::Vector3f(0.0F, 1.0F, 2.0F)), 2);
 }
 
 }  // namespace

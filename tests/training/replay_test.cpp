@@ -1,26 +1,31 @@
-// The replay ring and the n-step returns.
+// The replay buffer, the n-step returns and the priorities.
 #include "replay.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
+
+#include "priorities.hpp"
 
 namespace striker::training {
 namespace {
 
+constexpr int inputs = 6;
+
 Features numbered(int i) {
-  return Features::Constant(static_cast<float>(i));
+  return Features::Constant(inputs, static_cast<float>(i));
 }
 
-TEST(Replay, KeepsTheNewest) {
-  Replay replay(10);
+TEST(ReplayBuffer, KeepsTheNewest) {
+  ReplayBuffer replay(inputs, 10);
   for (int i = 0; i < 25; ++i) {
     replay.push({.state = numbered(i), .action = i, .reward = 0.0F, .next = numbered(i), .discount = 0.0F});
-    EXPECT_EQ(replay.size(), static_cast<std::size_t>(std::min(i + 1, 10)));
+    EXPECT_EQ(replay.size(), std::min(i + 1, 10));
   }
   std::vector<bool> held(25, false);
-  for (std::size_t i = 0; i < replay.size(); ++i) {
-    held[static_cast<std::size_t>(replay[i].action)] = true;
+  for (Eigen::Index i = 0; i < replay.size(); ++i) {
+    held[static_cast<std::size_t>(replay.action(i))] = true;
   }
   for (std::size_t i = 0; i < 25; ++i) {
     EXPECT_EQ(held[i], i >= 15);
@@ -28,33 +33,67 @@ TEST(Replay, KeepsTheNewest) {
 }
 
 // One transition a step: the discounted sum of up to n rewards, and the state n steps on or the end.
-TEST(Replay, NStepReturnsAreTheirDefinition) {
+TEST(NStep, ReturnsAreTheirDefinition) {
   constexpr double gamma = 0.9;
   const auto reward = [](int t) { return std::sin(3.0 * t) + 0.1 * t; };
   for (const int n : {1, 2, 5, 40}) {
+    NStep n_step(n, gamma, inputs);
     for (const int length : {1, 3, 5, 12}) {
-      Replay replay(100);
-      StepFolder folder(n, gamma);
+      ReplayBuffer replay(inputs, 100);
       for (int t = 0; t < length; ++t) {
-        folder.take(numbered(t), t % 3, reward(t), numbered(t + 1), t + 1 == length, replay);
+        n_step.take(numbered(t), t % 3, reward(t), numbered(t + 1), t + 1 == length,
+                    [&replay](const Transition& transition) { replay.push(transition); });
       }
-      ASSERT_EQ(replay.size(), static_cast<std::size_t>(length));
+      ASSERT_EQ(replay.size(), length);
       for (int t = 0; t < length; ++t) {
-        const Transition& transition = replay[static_cast<std::size_t>(t)];
         const int end = std::min(t + n, length);
         double sum = 0.0;
         for (int k = t; k < end; ++k) {
           sum += std::pow(gamma, k - t) * reward(k);
         }
-        EXPECT_EQ(transition.state, numbered(t));
-        EXPECT_EQ(transition.action, t % 3);
-        EXPECT_NEAR(transition.reward, sum, 1e-5);
-        EXPECT_NEAR(transition.discount, end == length ? 0.0 : std::pow(gamma, n), 1e-6)
-            << n << " " << length;
-        EXPECT_EQ(transition.next, numbered(end));
+        EXPECT_EQ(replay.state(t), numbered(t));
+        EXPECT_EQ(replay.action(t), t % 3);
+        EXPECT_NEAR(replay.reward(t), sum, 1e-5);
+        EXPECT_NEAR(replay.discount(t), end == length ? 0.0 : std::pow(gamma, n), 1e-6) << n << " " << length;
+        EXPECT_EQ(replay.next(t), numbered(end));
       }
     }
   }
+}
+
+// Places come as often as their priorities say; what was never inserted never comes.
+TEST(Priorities, DrawInProportion) {
+  constexpr double alpha = 0.5;
+  Priorities priorities(100, alpha);
+  const std::vector<double> errors = {0.0, 1.0, -4.0, 9.0, 0.25};
+  for (std::size_t place = 0; place < errors.size(); ++place) {
+    priorities.insert(place);
+    EXPECT_GT(priorities.probability(place), 0.0);
+  }
+  double whole = 0.0;
+  for (std::size_t place = 0; place < errors.size(); ++place) {
+    priorities.update(place, errors[place]);
+    whole += std::pow(std::abs(errors[place]) + 1e-3, alpha);
+  }
+  constexpr int draws = 100'000;
+  std::vector<int> counts(errors.size(), 0);
+  for (int i = 0; i < draws; ++i) {
+    ++counts.at(priorities.at((i + 0.5) / draws));
+  }
+  for (std::size_t place = 0; place < errors.size(); ++place) {
+    const double expected = std::pow(std::abs(errors[place]) + 1e-3, alpha) / whole;
+    EXPECT_NEAR(priorities.probability(place), expected, 1e-6);
+    EXPECT_NEAR(static_cast<double>(counts[place]) / draws, expected, 1e-4);
+  }
+}
+
+// A new one is as urgent as the most urgent so far.
+TEST(Priorities, NewOnesComeFirst) {
+  Priorities priorities(8, 1.0);
+  priorities.insert(0);
+  priorities.update(0, 7.0);
+  priorities.insert(1);
+  EXPECT_NEAR(priorities.probability(1), 0.5, 1e-6);
 }
 
 }  // namespace

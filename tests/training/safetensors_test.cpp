@@ -113,59 +113,5 @@ TEST(Safetensors, EveryTruncationOfAModelIsRefused) {
   }
 }
 
-TEST(Model, ComesBackBitForBit) {
-  const TemporaryDirectory directory;
-  const Model model{.parameters = some_parameters(1), .metadata = {{"seed", "1"}, {"equations", "printed"}}};
-  save_model(model, directory / "model.safetensors");
-  const Model read = load_model(directory / "model.safetensors");
-  EXPECT_EQ(read.parameters, model.parameters);
-  EXPECT_EQ(read.metadata, model.metadata);
-  EXPECT_EQ(equations_of(read), Equations::printed);
-  EXPECT_EQ(model_identity(read.parameters), model_identity(model.parameters));
-  Parameters other = model.parameters;
-  other(4000) = std::nextafter(other(4000), 1.0F);
-  EXPECT_NE(model_identity(other), model_identity(model.parameters));
-}
-
-// PyTorch's layout: a row of "0.weight" holds what one neuron reads.
-TEST(Model, WeightsAreNamedAndLaidOutAsInPyTorch) {
-  const TemporaryDirectory directory;
-  Parameters parameters = Parameters::Zero();
-  weights<0>(parameters)(3, 5) = 7.0F;
-  biases<2>(parameters)(2) = 9.0F;
-  save_model({.parameters = parameters, .metadata = {}}, directory / "m");
-  const SafeTensors content = read_safetensors(content_of(directory / "m"), "m");
-  ASSERT_EQ(content.tensors.size(), 6U);
-  EXPECT_EQ(content.tensors[0].name, "0.weight");
-  EXPECT_EQ(content.tensors[0].shape, (std::vector<std::size_t>{64, 6}));
-  EXPECT_EQ(content.tensors[0].values[3 * 6 + 5], 7.0F);
-  EXPECT_EQ(content.tensors[5].name, "4.bias");
-  EXPECT_EQ(content.tensors[5].values[2], 9.0F);
-}
-
-TEST(Model, OfAnotherShapeIsRefused) {
-  const TemporaryDirectory directory;
-  save_model({.parameters = some_parameters(1), .metadata = {}}, directory / "m");
-  const SafeTensors good = read_safetensors(content_of(directory / "m"), "m");
-  const auto complaint = [&](const SafeTensors& content) {
-    write_to(directory / "bad", write_safetensors(content));
-    try {
-      (void)load_model(directory / "bad");
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string("was read");
-  };
-  SafeTensors missing = good;
-  missing.tensors.pop_back();
-  EXPECT_NE(complaint(missing).find("4.bias is missing"), std::string::npos);
-  SafeTensors more = good;
-  more.tensors.push_back({.name = "6.bias", .shape = {1}, .values = {0.0F}});
-  EXPECT_NE(complaint(more).find("7 tensors"), std::string::npos);
-  SafeTensors turned = good;
-  turned.tensors[0].shape = {6, 64};
-  EXPECT_NE(complaint(turned).find("0.weight has shape [6, 64]"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace striker::training

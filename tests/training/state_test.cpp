@@ -106,32 +106,102 @@ TEST(State, ABallAtRestHasADirection) {
   EXPECT_NEAR(rcs_state(seen, Equations::corrected).ball_angle_rad, pi / 2 - 1.0, 1e-12);
 }
 
+StateInputs all_inputs() {
+  StateInputs inputs = rcs_inputs();
+  inputs.push_back({.element = Element::decisions_left});
+  inputs.push_back({.element = Element::robot_speed, .decisions_ago = 1});
+  inputs.push_back({.element = Element::ball_y, .decisions_ago = 4});
+  return inputs;
+}
+
+Features features_at(const StateInputs& inputs, const Observation& seen) {
+  History history;
+  history.begin({.rcs = rcs_state(seen, Equations::corrected), .field = seen, .decisions_left = 30});
+  sil::Random dummies(1, 1, 1);
+  Features features(inputs.size());
+  see(inputs, history, dummies, features);
+  return features;
+}
+
 TEST(State, TheMirrorIsTheMirroredWorld) {
   std::mt19937 random(3);
+  const StateInputs inputs = all_inputs();
   for (int i = 0; i < 1'000; ++i) {
     Observation seen = some_observation(random);
-    const Features features_here = features(rcs_state(seen, Equations::corrected));
+    const Features here = features_at(inputs, seen);
     seen.robot.y_m *= -1.0;
     seen.robot.heading_rad *= -1.0;
     seen.robot_velocity_m_s.y *= -1.0;
     seen.ball.position_m.y *= -1.0;
     seen.ball.velocity_m_s.y *= -1.0;
-    ASSERT_LT((mirrored(features_here) - features(rcs_state(seen, Equations::corrected))).norm(), 1e-5F);
+    ASSERT_LT((here.cwiseProduct(mirror_factors(inputs)) - features_at(inputs, seen)).norm(), 1e-5F);
   }
 }
 
-TEST(State, RawUnitsComeBackToTheCount) {
+// The controller's integers say the same as the features, to half a count.
+TEST(State, RawUnitsSayTheSame) {
   std::mt19937 random(4);
-  const auto draw = [&random](int limit) {
-    return std::uniform_int_distribution<int>(-limit, limit)(random);
-  };
+  const StateInputs inputs = all_inputs();
   for (int i = 0; i < 10'000; ++i) {
-    const RawState raw{draw(16'000'000), draw(16'000'000), draw(5'000),
-                       draw(8'000),      draw(8'000),      draw(32'767)};
-    ASSERT_EQ(raw_state(state_of(raw)), raw);
+    const Observation seen = some_observation(random);
+    History history;
+    history.begin({.rcs = rcs_state(seen, Equations::corrected), .field = seen, .decisions_left = 17});
+    const RawState raw = raw_state(inputs, history);
+    ASSERT_EQ(raw.size(), inputs.size());
+    sil::Random dummies(1, 1, 1);
+    Features features(inputs.size());
+    see(inputs, history, dummies, features);
+    features[5] = features[5] >= 1.0F - 1.0F / 65536.0F ? -1.0F : features[5];  // pi and -pi are one count
+    ASSERT_LT((features_of(inputs, raw) - features).cwiseAbs().maxCoeff(), 3e-4F);
   }
-  EXPECT_EQ(raw_state({.ball_angle_rad = pi})[5], -32768);
-  EXPECT_EQ(raw_state({.ball_x_m = 1.0, .robot_speed_m_s = -2.55}), (RawState{1'000'000, 0, -2550, 0, 0, 0}));
+}
+
+TEST(State, RawUnitsAreTheFirmwares) {
+  History history;
+  history.begin({.rcs = {.ball_x_m = 1.0, .robot_speed_m_s = -2.55, .ball_angle_rad = pi},
+                 .field = {},
+                 .decisions_left = 40});
+  EXPECT_EQ(raw_state(all_inputs(), history), (RawState{1'000'000, 0, -2550, 0, 0, -32768, 40, -2550, 0}));
+}
+
+// Before the first decision everything was as at the first.
+TEST(State, HistoryLooksBack) {
+  History history;
+  history.begin({.rcs = {.ball_x_m = 1.0}, .field = {}, .decisions_left = 40});
+  for (int i = 0; i < greatest_look_back; ++i) {
+    EXPECT_EQ(history.ago(i).rcs.ball_x_m, 1.0);
+  }
+  for (int i = 2; i < 10; ++i) {
+    history.add({.rcs = {.ball_x_m = 1.0 * i}, .field = {}, .decisions_left = 41 - i});
+    for (int ago = 0; ago <= greatest_look_back; ++ago) {
+      EXPECT_EQ(history.ago(ago).rcs.ball_x_m, std::max(1, i - ago));
+    }
+  }
+}
+
+TEST(State, DummiesAreNoiseOfTheirOwnStream) {
+  const StateInputs inputs(2, {.element = Element::dummy});
+  sil::Random stream(1, 2, 3);
+  sil::Random same(1, 2, 3);
+  Features first(2);
+  Features again(2);
+  see(inputs, {}, stream, first);
+  see(inputs, {}, same, again);
+  EXPECT_EQ(first, again);
+  EXPECT_NE(first[0], first[1]);
+  see(inputs, {}, stream, again);
+  EXPECT_NE(first, again);
+  EXPECT_LE(again.cwiseAbs().maxCoeff(), 1.0F);
+}
+
+TEST(State, TheAcsIsTheFieldsView) {
+  std::mt19937 random(5);
+  const Observation seen = some_observation(random);
+  const Features features = features_at(acs_inputs(), seen);
+  ASSERT_EQ(features.size(), 10);
+  EXPECT_NEAR(features[0], seen.robot.x_m / 4.0, 1e-6);
+  EXPECT_NEAR(features[5], seen.ball.position_m.x / 4.0, 1e-6);
+  EXPECT_NEAR(features[9], std::atan2(seen.ball.velocity_m_s.y, seen.ball.velocity_m_s.x) / pi, 1e-6);
 }
 
 }  // namespace

@@ -1,40 +1,45 @@
 // The learner as a whole.
 #include <gtest/gtest.h>
 
-#include "dqn.hpp"
 #include "fixtures.hpp"
+#include "training_run.hpp"
 
 namespace striker::training {
 namespace {
 
-bool go_on(const EpisodeRow& /*row*/) {
-  return true;
+Parameters learnt(const Config& config, std::uint64_t seed) {
+  Training training(config, seed);
+  play_all(training);
+  return training.learner().result();
 }
 
 TEST(Train, IsAFunctionOfConfigurationAndSeed) {
   const Config config = short_config(40);
-  const Training first = train(config, 1, go_on);
-  const Training second = train(config, 1, go_on);
-  const Training other = train(config, 2, go_on);
-  EXPECT_GT(first.gradient_steps, 500);
-  EXPECT_EQ(first.parameters, second.parameters);
-  EXPECT_NE(first.parameters, other.parameters);
-  ASSERT_EQ(first.rows.size(), second.rows.size());
-  for (std::size_t i = 0; i < first.rows.size(); ++i) {
-    EXPECT_EQ(first.rows[i].reward, second.rows[i].reward);
-    EXPECT_EQ(first.rows[i].loss, second.rows[i].loss);
+  Training first(config, 1);
+  Training second(config, 1);
+  for (int i = 0; i < config.run.episodes; ++i) {
+    const CurveRow a = first.play_episode();
+    const CurveRow b = second.play_episode();
+    EXPECT_EQ(a.episode.reward, b.episode.reward);
+    EXPECT_EQ(a.episode.loss, b.episode.loss);
+    EXPECT_EQ(a.episode.q, b.episode.q);
   }
+  EXPECT_GT(first.learner().gradient_steps(), 500);
+  EXPECT_EQ(first.learner().result(), second.learner().result());
+  EXPECT_FALSE(first.learner().result() == learnt(config, 2));
 }
 
 // Every option reaches the learner: switched alone, it changes what is learnt.
 TEST(Train, EveryOptionMatters) {
   const Config plain = short_config(25);
-  const Parameters learnt = train(plain, 1, go_on).parameters;
+  const Parameters without = learnt(plain, 1);
   const auto differs = [&](auto change) {
     Config config = plain;
     change(config);
-    return train(config, 1, go_on).parameters != learnt;
+    return !(learnt(config, 1) == without);
   };
+  EXPECT_TRUE(differs([](Config& c) { c.shape.hidden1 = 32; }));
+  EXPECT_TRUE(differs([](Config& c) { c.shape.dueling = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.gamma = 0.9; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.n_step = 1; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.double_dqn = false; }));
@@ -44,25 +49,49 @@ TEST(Train, EveryOptionMatters) {
   EXPECT_TRUE(differs([](Config& c) { c.learner.replay_size = 300; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.warm_up = 300; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.target_period = 50; }));
+  EXPECT_TRUE(differs([](Config& c) { c.learner.target_rate = 0.5; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.gradient_steps = 2; }));
+  EXPECT_TRUE(differs([](Config& c) { c.learner.clip_norm = 0.1; }));
+  EXPECT_TRUE(differs([](Config& c) { c.learner.prioritised = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.optimiser.learning_rate = 5e-4; }));
   EXPECT_TRUE(differs([](Config& c) { c.optimiser.final_fraction = 0.1; }));
+  EXPECT_TRUE(differs([](Config& c) { c.optimiser.averaging = 0.99; }));
   EXPECT_TRUE(differs([](Config& c) { c.exploration.epsilon_start = 0.5; }));
   EXPECT_TRUE(differs([](Config& c) { c.exploration.decay_episodes = 30; }));
   EXPECT_TRUE(differs([](Config& c) { c.environments.pop_back(); }));
   EXPECT_TRUE(differs([](Config& c) { c.environments[0].equations = Equations::printed; }));
 }
 
+// The options of an option matter where it is on.
+TEST(Train, PrioritiesAndSchedulesMatter) {
+  Config plain = short_config(25);
+  plain.learner.prioritised = true;
+  plain.optimiser.final_fraction = 0.1;
+  plain.exploration.epsilon_end = 0.1;
+  plain.exploration.decay_episodes = 25;
+  const Parameters without = learnt(plain, 1);
+  const auto differs = [&](auto change) {
+    Config config = plain;
+    change(config);
+    return !(learnt(config, 1) == without);
+  };
+  EXPECT_TRUE(differs([](Config& c) { c.learner.priority_exponent = 0.3; }));
+  EXPECT_TRUE(differs([](Config& c) { c.learner.priority_correction = 0.9; }));
+  EXPECT_TRUE(differs([](Config& c) { c.optimiser.schedule = Course::cosine; }));
+  EXPECT_TRUE(differs([](Config& c) { c.exploration.schedule = Course::exponential; }));
+}
+
 TEST(Train, TheCurveIsTheMovingAverageOfItsRewards) {
-  const Training training = train(short_config(300), 3, go_on);
-  for (std::size_t i = 0; i < training.rows.size(); ++i) {
+  Training training(short_config(300), 3);
+  const std::vector<CurveRow> rows = play_all(training);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t first = i + 1 < 250 ? 0 : i + 1 - 250;
     double sum = 0.0;
     for (std::size_t k = first; k <= i; ++k) {
-      sum += training.rows[k].reward;
+      sum += rows[k].episode.reward;
     }
-    ASSERT_NEAR(training.rows[i].moving_average, sum / static_cast<double>(i + 1 - first), 1e-9);
-    ASSERT_LE(training.rows[i].steps, sil::kick_decisions);
+    ASSERT_NEAR(rows[i].moving_average, sum / static_cast<double>(i + 1 - first), 1e-9);
+    ASSERT_LE(rows[i].episode.steps, sil::kick_decisions);
   }
 }
 
@@ -76,16 +105,16 @@ TEST(Train, PlaysItsOwnEpisodesUpToTheContact) {
   int contacts = 0;
   int unlike_evaluation = 0;
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const Training training = train(config, seed, go_on);
-    const Parameters parameters = initial_parameters(seed);
+    Training training(config, seed);
+    const Parameters parameters = initial_parameters(config.shape, seed);
     KickEnv env(config.environments.front());
+    Actor actor(config.shape);
     const auto played = [&](std::uint64_t episode) {
-      return play(env, sil::draw_kick(seed, episode, sil::PoseMode::origin), [&](const RcsState& state) {
-        return greedy_action(q_values(parameters, features(state)));
-      });
+      return play(env, seed, episode,
+                  [&](const KickEnv& seen) { return actor.choose(parameters, seen.features()); });
     };
-    for (std::size_t i = 0; i < training.rows.size(); ++i) {
-      const EpisodeRow& row = training.rows[i];
+    for (std::uint64_t i = 0; !training.done(); ++i) {
+      const EpisodeRow row = training.play_episode().episode;
       const sil::KickOutcome outcome = played(training_episodes + i);
       ASSERT_EQ(row.contact, outcome.contact);
       ASSERT_EQ(row.reward, outcome.reward);
@@ -98,21 +127,15 @@ TEST(Train, PlaysItsOwnEpisodesUpToTheContact) {
   EXPECT_GT(unlike_evaluation, 5);
 }
 
-TEST(Train, StopsWhenItIsTold) {
-  const Training training =
-      train(short_config(1000), 1, [](const EpisodeRow& row) { return row.episode < 7; });
-  EXPECT_EQ(training.rows.size(), 8U);
-}
-
 TEST(Train, LearnsToKick) {
   Config config = short_config(2000);
   config.learner.replay_size = 100'000;
   config.learner.gamma = 0.98;
   config.learner.target_period = 1000;
   config.exploration.decay_episodes = 800;
-  config.validation_episodes = 200;
-  const double untrained = validate(config, initial_parameters(1), 1);
-  const double trained = validate(config, train(config, 1, go_on).parameters, 1);
+  const EnvConfig& task = config.environments.front();
+  const double untrained = validate(task, initial_parameters(config.shape, 1), 1, 200);
+  const double trained = validate(task, learnt(config, 1), 1, 200);
   EXPECT_LT(untrained, -2.0);
   EXPECT_GT(trained, 3.0);
 }

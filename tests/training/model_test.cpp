@@ -1,0 +1,117 @@
+// Models as files: the project's own and other people's.
+#include "model.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "fixtures.hpp"
+#include "safetensors.hpp"
+
+namespace striker::training {
+namespace {
+
+TEST(Model, ComesBackBitForBit) {
+  const TemporaryDirectory directory;
+  const Model model{.parameters = some_parameters(1), .metadata = {{"seed", "1"}}};
+  save_model(model, directory / "model.safetensors");
+  const Model read = load_model(directory / "model.safetensors");
+  EXPECT_EQ(read.parameters, model.parameters);
+  EXPECT_EQ(read.metadata, model.metadata);
+  EXPECT_EQ(model_identity(read.parameters), model_identity(model.parameters));
+  Parameters other = model.parameters;
+  other.values(4000) = std::nextafter(other.values(4000), 1.0F);
+  EXPECT_NE(model_identity(other), model_identity(model.parameters));
+}
+
+// PyTorch's layout: a row of "0.weight" holds what one neuron reads.
+TEST(Model, WeightsAreNamedAndLaidOutAsInPyTorch) {
+  const TemporaryDirectory directory;
+  Parameters parameters({});
+  parameters.weights(0)(3, 5) = 7.0F;
+  parameters.biases(2)(2) = 9.0F;
+  save_model({.parameters = parameters, .metadata = {}}, directory / "m");
+  const SafeTensors content = read_safetensors(content_of(directory / "m"), "m");
+  ASSERT_EQ(content.tensors.size(), 6U);
+  EXPECT_EQ(content.tensors[0].name, "0.weight");
+  EXPECT_EQ(content.tensors[0].shape, (std::vector<std::size_t>{64, 6}));
+  EXPECT_EQ(content.tensors[0].values[3 * 6 + 5], 7.0F);
+  EXPECT_EQ(content.tensors[5].name, "4.bias");
+  EXPECT_EQ(content.tensors[5].values[2], 9.0F);
+}
+
+TEST(Model, OfAnotherShapeIsRefused) {
+  const TemporaryDirectory directory;
+  save_model({.parameters = some_parameters(1), .metadata = {}}, directory / "m");
+  const SafeTensors good = read_safetensors(content_of(directory / "m"), "m");
+  const auto complaint = [&](const SafeTensors& content) {
+    write_to(directory / "bad", write_safetensors(content));
+    try {
+      (void)load_model(directory / "bad");
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("was read");
+  };
+  SafeTensors missing = good;
+  missing.tensors.pop_back();
+  EXPECT_NE(complaint(missing).find("4.bias is missing"), std::string::npos);
+  SafeTensors more = good;
+  more.tensors.push_back({.name = "6.bias", .shape = {1}, .values = {0.0F}});
+  EXPECT_NE(complaint(more).find("6.weight is missing"), std::string::npos);
+  SafeTensors deeper = good;
+  deeper.tensors.push_back({.name = "6.weight", .shape = {1, 3}, .values = {0.0F, 0.0F, 0.0F}});
+  deeper.tensors.push_back({.name = "6.bias", .shape = {1}, .values = {0.0F}});
+  EXPECT_NE(complaint(deeper).find("4 layers"), std::string::npos);
+  SafeTensors two = good;
+  two.tensors.push_back({.name = "b.0.weight", .shape = {1, 1}, .values = {0.0F}});
+  EXPECT_NE(complaint(two).find("2 networks"), std::string::npos);
+  SafeTensors stranger = good;
+  stranger.tensors.push_back({.name = "optimiser", .shape = {1}, .values = {0.0F}});
+  EXPECT_NE(complaint(stranger).find("tensor optimiser is no layer"), std::string::npos);
+  SafeTensors turned = good;
+  turned.tensors[0].shape = {6, 64};
+  EXPECT_NE(complaint(turned).find("0.weight has shape [6, 64]"), std::string::npos);
+}
+
+// As Stable-Baselines3 names them, target network and all; CleanRL's, whose layers count 0, 2, 4 too; and any
+// order of the tensors.
+TEST(Model, OtherPeoplesNamesAreRead) {
+  const TemporaryDirectory directory;
+  const Parameters parameters =
+      some_parameters(1, {.inputs = 12, .hidden1 = 40, .hidden2 = 24, .actions = 5});
+  const auto named = [&parameters](const std::string& prefix) {
+    std::vector<Tensor> tensors = tensors_of(parameters);
+    for (Tensor& tensor : tensors) {
+      tensor.name = prefix + tensor.name;
+    }
+    std::reverse(tensors.begin(), tensors.end());
+    return tensors;
+  };
+  for (const std::string prefix : {"q_net.q_net.", "network.", "net", ""}) {
+    EXPECT_EQ(parameters_of(named(prefix), "f"), parameters) << prefix;
+  }
+  std::vector<Tensor> both = named("q_net.q_net.");
+  for (Tensor& tensor : named("q_net_target.q_net.")) {
+    tensor.values[0] += 1.0F;
+    both.push_back(tensor);
+  }
+  EXPECT_EQ(parameters_of(both, "f"), parameters);
+}
+
+TEST(Model, TheTaskIsThatOfItsConfiguration) {
+  const Model without{.parameters = some_parameters(1), .metadata = {}};
+  EXPECT_EQ(task_of(without, {}).inputs, rcs_inputs());
+  const Config acs = parse_config("[task]\ninputs = \"acs\"\n", "f");
+  const Model with{.parameters = some_parameters(1, acs.shape), .metadata = {{"configuration", acs.text}}};
+  EXPECT_EQ(task_of(with, {}).inputs, acs_inputs());
+  const Model stranger{.parameters = some_parameters(1, acs.shape), .metadata = {}};
+  EXPECT_THROW((void)task_of(stranger, {}), std::runtime_error);
+  const TemporaryDirectory directory;
+  write_to(directory / "acs.toml", "[task]\ninputs = \"acs\"\n");
+  EXPECT_EQ(task_of(stranger, directory / "acs.toml").inputs, acs_inputs());
+}
+
+}  // namespace
+}  // namespace striker::training
