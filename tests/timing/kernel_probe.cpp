@@ -30,7 +30,7 @@ std::int32_t draw(std::string_view set, std::mt19937& random) {
 
 // Counted by its name.
 extern "C" [[gnu::noinline]] int counted_inference(const Raw& raw) {
-  return infer(policy, raw).action;
+  return infer<policy>(raw).action;
 }
 
 int main(int argc, char** argv) {

@@ -54,7 +54,7 @@ std::vector<std::int64_t> reference(const Raw& raw) {
 
 void expect_agreement(const Raw& raw) {
   const auto wanted = reference(raw);
-  const auto got = infer(policy, raw);
+  const auto got = infer<policy>(raw);
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     ASSERT_EQ(got.sums[k], wanted[k]);
   }
@@ -87,14 +87,14 @@ TEST(Network, AgreesWithTheReferenceAtTheEndsOfTheRange) {
 
 TEST(Network, AnswersItsGoldenVectors) {
   for (const auto& golden : policy.golden_vectors) {
-    const auto q = infer(policy, golden.raw);
+    const auto q = infer<policy>(golden.raw);
     EXPECT_EQ(q.sums, golden.sums);
     EXPECT_EQ(q.action, golden.action);
   }
 }
 
 TEST(Network, OfEqualActionsTheLowestIsChosen) {
-  constexpr Policy<1, 1, 1, 4, 1> flat = [] {
+  static constexpr Policy<1, 1, 1, 4, 1> flat = [] {
     Policy<1, 1, 1, 4, 1> p{};
     p.input_scales[0] = {1, 1};
     p.layer1.shift = 1;
@@ -102,7 +102,7 @@ TEST(Network, OfEqualActionsTheLowestIsChosen) {
     p.output.biases = {3, 9, 9, 9};
     return p;
   }();
-  EXPECT_EQ(infer(flat, {0}).action, 1);
+  EXPECT_EQ(infer<flat>({0}).action, 1);
 }
 
 TEST(Proof, AWeightThatCouldOverflowIsRefused) {

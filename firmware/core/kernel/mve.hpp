@@ -1,0 +1,218 @@
+// The kernel for the M-profile Vector Extension (Helium): Cortex-M55.
+//
+// VMLADAVA multiplies eight pairs of half-words and adds all products to a general register. VLDM loads four
+// vectors an instruction; four rows share the activations. A hidden layer's sums are rescaled afterwards,
+// eight at a time: VQRSHRN shifts, rounds and saturates, VMAX is ReLU. (Not VQSHRN with the rounding in the
+// bias: GNU as 2.40 assembles it as VQRSHRN.)
+#pragma once
+
+#include <arm_mve.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/kernel/scalar.hpp"
+#include "core/kernel/stream.hpp"
+
+namespace striker::core::kernel {
+
+namespace mve {
+
+inline constexpr std::size_t lanes = 8;
+inline constexpr std::size_t block_vectors = 4;
+inline constexpr std::size_t group_rows = 4;
+
+struct Sums {
+  std::int32_t s0, s1, s2, s3;
+};
+
+// The assembler drops what the block's shape does not need.
+#define STRIKER_MVE_ROW(row, sum)                 \
+  ".if %c[rows] > " row                           \
+  "\n\t"                                          \
+  "vldmia %[weights]!, {d0-d%c[last_weight]}\n\t" \
+  "vmladava.s16 " sum                             \
+  ", q0, q4\n\t"                                  \
+  ".if %c[vectors] > 1\n\tvmladava.s16 " sum      \
+  ", q1, q5\n\t.endif\n\t"                        \
+  ".if %c[vectors] > 2\n\tvmladava.s16 " sum      \
+  ", q2, q6\n\t.endif\n\t"                        \
+  ".if %c[vectors] > 3\n\tvmladava.s16 " sum      \
+  ", q3, q7\n\t.endif\n\t"                        \
+  ".endif\n\t"
+
+// `Rows` sums take up the next `Vectors` vectors of columns; both at most 4.
+template <std::size_t Rows, std::size_t Vectors>
+[[gnu::always_inline]] inline void multiply_block(const std::int16_t*& weights,
+                                                  const std::int16_t*& activations, Sums& sums) {
+  auto [s0, s1, s2, s3] = sums;
+  asm volatile("vldmia %[activations]!, {d8-d%c[last_activation]}\n\t"  //
+               STRIKER_MVE_ROW("0", "%[s0]") STRIKER_MVE_ROW("1", "%[s1]") STRIKER_MVE_ROW("2", "%[s2]")
+                   STRIKER_MVE_ROW("3", "%[s3]")
+               : [weights] "+r"(weights), [activations] "+r"(activations), [s0] "+Te"(s0), [s1] "+Te"(s1),
+                 [s2] "+Te"(s2), [s3] "+Te"(s3)
+               : [rows] "i"(Rows), [vectors] "i"(Vectors), [last_weight] "i"(2 * Vectors - 1),
+                 [last_activation] "i"(7 + 2 * Vectors)
+               : "d0", "d1", "d2", "d3", "d4", "d5", "d6", "d7", "d8", "d9", "d10", "d11", "d12", "d13",
+                 "d14", "d15");
+  sums = {s0, s1, s2, s3};
+}
+
+#undef STRIKER_MVE_ROW
+
+// Four rows of one vector each, which come with one load; the activations stay in their register.
+[[gnu::always_inline]] inline void multiply_short_rows(const std::int16_t*& weights, int16x8_t activations,
+                                                       Sums& sums) {
+  auto [s0, s1, s2, s3] = sums;
+  asm volatile(
+      "vldmia %[weights]!, {d0-d7}\n\t"
+      "vmladava.s16 %[s0], q0, %q[activations]\n\t"
+      "vmladava.s16 %[s1], q1, %q[activations]\n\t"
+      "vmladava.s16 %[s2], q2, %q[activations]\n\t"
+      "vmladava.s16 %[s3], q3, %q[activations]"
+      : [weights] "+r"(weights), [s0] "+Te"(s0), [s1] "+Te"(s1), [s2] "+Te"(s2), [s3] "+Te"(s3)
+      : [activations] "w"(activations)
+      : "d0", "d1", "d2", "d3", "d4", "d5", "d6", "d7");
+  sums = {s0, s1, s2, s3};
+}
+
+// Two of a stream's words, and two words into a buffer: GCC 12 takes detours here, by way of vectors.
+struct Two {
+  std::int32_t first, second;
+};
+[[gnu::always_inline]] inline Two load_two(const std::int32_t*& from) {
+  std::int32_t first;
+  std::int32_t second;
+  asm volatile("ldrd %1, %2, [%0], #8" : "+r"(from), "=Te"(first), "=Te"(second));
+  return {first, second};
+}
+[[gnu::always_inline]] inline void store_two(std::int32_t*& to, std::int32_t first, std::int32_t second) {
+  asm volatile("strd %1, %2, [%0], #8" : "+r"(to) : "r"(first), "r"(second) : "memory");
+}
+
+template <std::size_t Rows, std::size_t Vectors>
+[[gnu::always_inline]] inline void multiply_row_blocks(const std::int16_t*& weights,
+                                                       const std::int16_t* activations, Sums& sums) {
+#pragma GCC unroll 64
+  for (std::size_t block = 0; block < Vectors / block_vectors; ++block) {
+    multiply_block<Rows, block_vectors>(weights, activations, sums);
+  }
+  if constexpr (Vectors % block_vectors != 0) {
+    multiply_block<Rows, Vectors % block_vectors>(weights, activations, sums);
+  }
+}
+
+// All rows' sums, in their order.
+template <std::size_t Rows, std::size_t Vectors>
+[[gnu::always_inline]] inline void layer_sums(const std::int16_t* weights, const std::int16_t* activations,
+                                              const std::int32_t* biases, std::int32_t* to) {
+  const int16x8_t first = vld1q_s16(activations);
+  for (const std::int32_t* end = biases + Rows / group_rows * group_rows; biases != end;) {
+    const auto [b0, b1] = load_two(biases);
+    const auto [b2, b3] = load_two(biases);
+    Sums sums{b0, b1, b2, b3};
+    if constexpr (Vectors == 1) {
+      multiply_short_rows(weights, first, sums);
+    } else {
+      multiply_row_blocks<group_rows, Vectors>(weights, activations, sums);
+    }
+    store_two(to, sums.s0, sums.s1);
+    store_two(to, sums.s2, sums.s3);
+  }
+  if constexpr (constexpr std::size_t rest = Rows % group_rows; rest != 0) {
+    Sums sums{biases[0], rest > 1 ? biases[1] : 0, rest > 2 ? biases[2] : 0, 0};
+    multiply_row_blocks<rest, Vectors>(weights, activations, sums);
+    const std::array<std::int32_t, 3> values = {sums.s0, sums.s1, sums.s2};
+    std::copy_n(values.begin(), rest, to);
+  }
+}
+
+// Sums as they are stored, eight at a time: rescaled with rounding, not below 0, not above 32767. VQRSHRN
+// shifts by at most 16; it fills every other lane, from two vectors that a de-interleaving load made.
+template <int shift, std::size_t Count>
+[[gnu::always_inline]] inline void store_all(const std::int32_t* sums, std::int16_t* to) {
+  constexpr int last_shift = std::min(shift, 16);
+  const int16x8_t zero = vdupq_n_s16(0);
+  int16x8_t stored = zero;
+  for (std::size_t i = 0; i < Count; i += lanes) {
+    int32x4x2_t pair = vld2q_s32(sums + i);
+    if constexpr (shift > last_shift) {
+      pair.val[0] = vshrq_n_s32(pair.val[0], shift - last_shift);
+      pair.val[1] = vshrq_n_s32(pair.val[1], shift - last_shift);
+    }
+    stored = vqrshrnbq_n_s32(stored, pair.val[0], last_shift);
+    stored = vqrshrntq_n_s32(stored, pair.val[1], last_shift);
+    stored = vmaxq_s16(stored, zero);
+    vst1q_s16(to + i, stored);
+  }
+}
+
+}  // namespace mve
+
+struct Mve {
+  static constexpr const char* name = "mve";
+
+  static constexpr std::size_t columns(std::size_t inputs) { return round_up(inputs, mve::lanes); }
+
+  // Past `Count`, anything: those columns' weights are 0.
+  template <std::size_t Count>
+  struct Activations {
+    alignas(16) std::array<std::int16_t, columns(Count)> values;
+    void set(std::size_t i, std::int32_t value) { values[i] = static_cast<std::int16_t>(value); }
+  };
+
+  template <std::size_t Inputs, std::size_t Outputs>
+  struct Packed {
+    alignas(16) std::array<std::int16_t, Outputs * columns(Inputs)> weights{};
+    std::array<std::int32_t, Outputs> biases;
+  };
+
+  template <std::size_t Inputs, std::size_t Outputs>
+  static constexpr Packed<Inputs, Outputs> pack(const Layer<Inputs, Outputs>& layer,
+                                                const std::array<std::int32_t, Outputs>& biases) {
+    constexpr std::size_t block_columns = mve::lanes * mve::block_vectors;
+    Packed<Inputs, Outputs> packed{{}, biases};
+    std::size_t at = 0;
+    for (std::size_t first = 0; first < Outputs; first += mve::group_rows) {
+      for (std::size_t block = 0; block < columns(Inputs); block += block_columns) {
+        for (std::size_t row = first; row < std::min(first + mve::group_rows, Outputs); ++row) {
+          for (std::size_t i = block; i < std::min(block + block_columns, columns(Inputs)); ++i) {
+            packed.weights[at++] = static_cast<std::int16_t>(weight_or_zero(layer, row, i));
+          }
+        }
+      }
+    }
+    return packed;
+  }
+
+  template <std::size_t Inputs, std::size_t Outputs>
+  static constexpr Packed<Inputs, Outputs> pack_hidden(const Layer<Inputs, Outputs>& layer) {
+    return pack(layer, layer.biases);
+  }
+  template <std::size_t Inputs, std::size_t Outputs>
+  static constexpr Packed<Inputs, Outputs> pack_output(const Layer<Inputs, Outputs>& layer) {
+    return pack(layer, layer.biases);
+  }
+
+  template <int shift, std::size_t Inputs, std::size_t Outputs>
+  [[gnu::always_inline]] static void hidden(const Packed<Inputs, Outputs>& layer,
+                                            const Activations<Inputs>& in, Activations<Outputs>& out) {
+    alignas(16) std::array<std::int32_t, columns(Outputs)> sums;
+    finish_stores(in);
+    mve::layer_sums<Outputs, columns(Inputs) / mve::lanes>(layer.weights.data(), in.values.data(),
+                                                           layer.biases.data(), sums.data());
+    mve::store_all<shift, columns(Outputs)>(sums.data(), out.values.data());
+  }
+
+  template <std::size_t Inputs, std::size_t Outputs>
+  [[gnu::always_inline]] static void sums(const Packed<Inputs, Outputs>& layer, const Activations<Inputs>& in,
+                                          std::array<std::int32_t, Outputs>& out) {
+    finish_stores(in);
+    mve::layer_sums<Outputs, columns(Inputs) / mve::lanes>(layer.weights.data(), in.values.data(),
+                                                           layer.biases.data(), out.data());
+  }
+};
+
+}  // namespace striker::core::kernel

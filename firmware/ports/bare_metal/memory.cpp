@@ -1,0 +1,44 @@
+#include "ports/bare_metal/memory.hpp"
+
+extern "C" {
+// From the linker script: addresses, not values.
+extern std::uint32_t data_start;
+extern std::uint32_t data_end;
+extern const std::uint32_t data_load;
+extern std::uint32_t bss_start;
+extern std::uint32_t bss_end;
+extern std::uint32_t stack_bottom;
+extern std::uint32_t stack_top;
+}
+
+namespace striker::bare_metal {
+
+namespace {
+
+constexpr std::uint32_t paint = 0xC5C5C5C5;
+
+}  // namespace
+
+void prepare_memory() {
+  const std::uint32_t* from = &data_load;
+  for (volatile std::uint32_t* to = &data_start; to != &data_end; ++to) {
+    *to = *from++;
+  }
+  for (volatile std::uint32_t* to = &bss_start; to != &bss_end; ++to) {
+    *to = 0;
+  }
+  const auto* here = static_cast<const std::uint32_t*>(__builtin_frame_address(0));
+  for (volatile std::uint32_t* to = &stack_bottom; to < here - 16; ++to) {
+    *to = paint;
+  }
+}
+
+std::uint32_t stack_high_water_bytes() {
+  const volatile std::uint32_t* word = &stack_bottom;
+  while (word != &stack_top && *word == paint) {
+    ++word;
+  }
+  return static_cast<std::uint32_t>(&stack_top - word) * sizeof(std::uint32_t);
+}
+
+}  // namespace striker::bare_metal

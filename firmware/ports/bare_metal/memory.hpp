@@ -1,0 +1,14 @@
+// What reset does to memory before `main`, and how deep the stack has been since.
+#pragma once
+
+#include <cstdint>
+
+namespace striker::bare_metal {
+
+// Copies .data, clears .bss, and paints the stack below the caller.
+void prepare_memory();
+
+// The stack that was in use at its deepest since reset, in bytes.
+[[nodiscard]] std::uint32_t stack_high_water_bytes();
+
+}  // namespace striker::bare_metal

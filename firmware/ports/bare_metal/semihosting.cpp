@@ -1,0 +1,111 @@
+#include "ports/bare_metal/semihosting.hpp"
+
+#include <array>
+#include <cstring>
+
+namespace striker::semihosting {
+
+namespace {
+
+enum class Operation : std::uint32_t {
+  open = 0x01,
+  write0 = 0x04,
+  read = 0x06,
+  get_command_line = 0x15,
+  exit_extended = 0x20,
+};
+
+constexpr std::uint32_t application_exit = 0x20026;
+
+std::int32_t call(Operation operation, const void* parameter) {
+  register std::uint32_t r0 asm("r0") = static_cast<std::uint32_t>(operation);
+  register const void* r1 asm("r1") = parameter;
+#if __ARM_ARCH_PROFILE == 'M'
+  asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+#else
+  asm volatile("svc 0xab" : "+r"(r0) : "r"(r1) : "memory", "lr");
+#endif
+  return static_cast<std::int32_t>(r0);
+}
+
+const char* command_line() {
+  static std::array<char, 256> line;
+  struct {
+    char* text;
+    std::uint32_t length;
+  } const block{line.data(), line.size() - 1};
+  if (line[0] == '\0') {
+    call(Operation::get_command_line, &block);
+  }
+  return line.data();
+}
+
+}  // namespace
+
+void print(const char* text) {
+  call(Operation::write0, text);
+}
+
+void print(std::int64_t number) {
+  std::array<char, 24> digits{};
+  std::size_t at = digits.size() - 1;
+  auto rest = static_cast<std::uint64_t>(number < 0 ? -number : number);
+  do {
+    digits[--at] = static_cast<char>('0' + rest % 10);
+    rest /= 10;
+  } while (rest != 0);
+  if (number < 0) {
+    digits[--at] = '-';
+  }
+  print(digits.data() + at);
+}
+
+void print_line(const char* name, std::int64_t number) {
+  print(name);
+  print(" ");
+  print(number);
+  print("\n");
+}
+
+std::uint32_t argument(const char* name, std::uint32_t otherwise) {
+  const char* at = std::strstr(command_line(), name);
+  if (at == nullptr) {
+    return otherwise;
+  }
+  at += std::strlen(name);
+  std::uint32_t number = 0;
+  for (at += *at == ' ' ? 1 : 0; *at >= '0' && *at <= '9'; ++at) {
+    number = number * 10 + static_cast<std::uint32_t>(*at - '0');
+  }
+  return number;
+}
+
+File::File(const char* name) {
+  struct {
+    const char* name;
+    std::uint32_t mode;  // 1: "rb"
+    std::uint32_t length;
+  } const block{name, 1, std::strlen(name)};
+  handle_ = call(Operation::open, &block);
+}
+
+bool File::read(std::span<std::uint8_t> bytes) {
+  struct {
+    std::int32_t handle;
+    std::uint8_t* to;
+    std::uint32_t length;
+  } const block{handle_, bytes.data(), bytes.size()};
+  return call(Operation::read, &block) == 0;
+}
+
+void exit(int status) {
+  struct {
+    std::uint32_t reason;
+    std::uint32_t status;
+  } const block{application_exit, static_cast<std::uint32_t>(status)};
+  call(Operation::exit_extended, &block);
+  for (;;) {
+  }
+}
+
+}  // namespace striker::semihosting
