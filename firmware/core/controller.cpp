@@ -26,6 +26,12 @@ static_assert(inputs_are_known(policy),
 static_assert(Trained::goldens >= 1, "STRIKER POLICY: no golden vector to test the boot with");
 static_assert(std::is_trivially_copyable_v<Controller>);
 
+// What is needed at run time, without the header's weights beside it: those are in the kernel's order
+// already.
+constexpr auto state_inputs = policy.state;
+constexpr auto golden_vectors = policy.golden_vectors;
+constexpr auto set_points = policy.set_points;
+
 constexpr std::uint32_t low_31_bits = 0x7FFFFFFF;
 
 // The best Q among the actions other than the chosen one, still in the output layer's scale.
@@ -52,7 +58,7 @@ bool take_due(Freshness& sent, std::uint32_t tick, std::uint32_t period_ticks) {
 }  // namespace
 
 std::span<const StateInput> policy_inputs() {
-  return policy.state;
+  return state_inputs;
 }
 
 void Controller::step(const Inputs& inputs, Outputs& outputs) {
@@ -104,8 +110,8 @@ void Controller::run_self_test() {
   if (self_test_ != SelfTest::running) {
     return;
   }
-  const auto& golden = policy.golden_vectors[self_tested_];
-  const auto q = infer(policy, golden.raw);
+  const auto& golden = golden_vectors[self_tested_];
+  const auto q = infer<policy>(golden.raw);
   if (q.sums != golden.sums || q.action != golden.action) {
     self_test_ = SelfTest::failed;
   } else if (++self_tested_ == Trained::goldens) {
@@ -166,15 +172,15 @@ void Controller::decide(bool extrapolated, Outputs& outputs) {
   remember(state);
   std::array<std::int32_t, Trained::inputs> raw{};
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    raw[i] = element_of(history_[policy.state[i].decisions_ago], policy.state[i].element);
+    raw[i] = element_of(history_[state_inputs[i].decisions_ago], state_inputs[i].element);
   }
-  const auto q = infer(policy, raw);
+  const auto q = infer<policy>(raw);
   decision_.number += 1;
   decision_.action = q.action;
   decision_.extrapolated = extrapolated;
   std::copy(raw.begin(), raw.end(), decision_.inputs.begin());
-  left_set_point_mm_s_ = policy.set_points[q.action].left_mm_s;
-  right_set_point_mm_s_ = policy.set_points[q.action].right_mm_s;
+  left_set_point_mm_s_ = set_points[q.action].left_mm_s;
+  right_set_point_mm_s_ = set_points[q.action].right_mm_s;
   outputs.add(can::pack(can::Decision{.number = static_cast<std::int32_t>((decision_.number - 1) & 0xFFFFU),
                                       .action = q.action,
                                       .extrapolated = static_cast<std::int32_t>(extrapolated),

@@ -107,7 +107,7 @@ template <std::size_t Rows, std::size_t Pairs>
     sums = {bias(0), bias(1), bias(2), 0};
     weights += Rows;
   }
-#pragma GCC unroll 64
+#pragma GCC unroll 8
   for (std::size_t block = 0; block < Pairs / 4; ++block) {
     multiply_block<Rows, 4>(weights, activations, sums);
   }
@@ -189,12 +189,16 @@ struct Dsp {
     finish_stores(in);
     const std::uint32_t* weights = layer.data();
     std::uint32_t* to = out.words.data();
-    // Two groups a turn: a loop's own instructions are a tenth of a small group's.
-    for (const std::uint32_t* end = to + Outputs / 8 * 4; to != end; to += 4) {
-      dsp::store_group<shift, pairs(Inputs)>(weights, in.words.data(), to);
-      dsp::store_group<shift, pairs(Inputs)>(weights, in.words.data(), to + 2);
+    // Two groups a turn where they are small: there the loop's own instructions count.
+    constexpr std::size_t groups = pairs(Inputs) <= 32 ? 2 : 1;
+    for (const std::uint32_t* end = to + Outputs / group_rows / groups * groups * 2; to != end;
+         to += 2 * groups) {
+#pragma GCC unroll 2
+      for (std::size_t group = 0; group < groups; ++group) {
+        dsp::store_group<shift, pairs(Inputs)>(weights, in.words.data(), to + 2 * group);
+      }
     }
-    if constexpr (Outputs % 8 >= 4) {
+    if constexpr (Outputs / group_rows % groups != 0) {
       dsp::store_group<shift, pairs(Inputs)>(weights, in.words.data(), to);
     }
     if constexpr (constexpr std::size_t rest = Outputs % group_rows; rest != 0) {

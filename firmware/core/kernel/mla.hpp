@@ -172,7 +172,7 @@ template <std::size_t Rows, std::size_t Columns>
                                                                         const std::uint32_t* activations,
                                                                         std::uint32_t offset) {
   Sums sums = load_sums<Rows>(weights);
-#pragma GCC unroll 64
+#pragma GCC unroll 16
   for (std::size_t block = 0; block < Columns / block_columns; ++block) {
     multiply_block<Rows, block_columns>(weights, activations, sums);
   }

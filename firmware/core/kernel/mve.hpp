@@ -95,7 +95,7 @@ struct Two {
 template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void multiply_row_blocks(const std::int16_t*& weights,
                                                        const std::int16_t* activations, Sums& sums) {
-#pragma GCC unroll 64
+#pragma GCC unroll 8
   for (std::size_t block = 0; block < Vectors / block_vectors; ++block) {
     multiply_block<Rows, block_vectors>(weights, activations, sums);
   }

@@ -1,0 +1,91 @@
+// Networks that no training made, for kernels: of any shape, drawn by the compiler from a seed, with weights
+// as great as the proof lets them be and scales from one end of their ranges to the other.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "core/policy.hpp"
+
+namespace striker::core {
+
+class SmallRandom {
+ public:
+  constexpr explicit SmallRandom(std::uint32_t seed) : state_(seed * 2654435769U + 1) {}
+  // xorshift32 (Marsaglia 2003).
+  constexpr std::uint32_t bits() {
+    state_ ^= state_ << 13U;
+    state_ ^= state_ >> 17U;
+    state_ ^= state_ << 5U;
+    return state_;
+  }
+  constexpr std::int32_t within(std::int32_t limit) {
+    const auto span = 2 * static_cast<std::uint32_t>(limit) + 1;
+    return static_cast<std::int32_t>(bits() % span) - limit;
+  }
+
+ private:
+  std::uint32_t state_;
+};
+
+template <std::size_t Inputs, std::size_t Outputs>
+constexpr void draw_layer(SmallRandom& random, Layer<Inputs, Outputs>& layer, std::uint8_t shift) {
+  // sum |w| * 32767 + |bias| + rounding stays below 2^31 where sum |w| is at most 64000.
+  const auto limit = static_cast<std::int32_t>(std::min<std::size_t>(32767, 64000 / Inputs));
+  for (auto& row : layer.weights) {
+    for (std::int16_t& weight : row) {
+      weight = static_cast<std::int16_t>(random.bits() % 8 == 0 ? (random.bits() % 2 == 0 ? limit : -limit)
+                                                                : random.within(limit));
+    }
+  }
+  for (std::int32_t& bias : layer.biases) {
+    bias = random.within(20'000'000);
+  }
+  layer.shift = shift;
+}
+
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A>
+constexpr Policy<I, H1, H2, A, 1> synthetic_policy(std::uint32_t seed) {
+  SmallRandom random(seed);
+  Policy<I, H1, H2, A, 1> policy{};
+  for (InputScale& scale : policy.input_scales) {
+    scale.multiplier = static_cast<std::int32_t>(1U << (random.bits() % 21));
+    scale.multiplier -=
+        static_cast<std::int32_t>(random.bits() % static_cast<std::uint32_t>(scale.multiplier));
+    scale.shift = static_cast<std::uint8_t>(1 + random.bits() % 40);
+  }
+  draw_layer(random, policy.layer1, static_cast<std::uint8_t>(10 + random.bits() % 8));
+  draw_layer(random, policy.layer2, static_cast<std::uint8_t>(10 + random.bits() % 8));
+  draw_layer(random, policy.output, 8);
+  return policy;
+}
+
+// A raw input: now small, now great, now at an end of what 32 bits hold.
+constexpr std::int32_t draw_raw(SmallRandom& random) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  switch (random.bits() % 8) {
+    case 0:
+      return Limits::max();
+    case 1:
+      return Limits::min();
+    case 2:
+      return 0;
+    default: {
+      const std::uint32_t drop = random.bits() % 31;
+      return static_cast<std::int32_t>(random.bits()) >> drop;
+    }
+  }
+}
+
+// Shapes that reach every piece of a kernel: whole groups and blocks, what is left of them, and odd counts.
+inline constexpr auto synthetic_smallest = synthetic_policy<1, 1, 1, 2>(1);
+inline constexpr auto synthetic_odd = synthetic_policy<7, 13, 11, 5>(2);
+inline constexpr auto synthetic_rest = synthetic_policy<9, 38, 27, 6>(3);
+inline constexpr auto synthetic_half = synthetic_policy<6, 32, 32, 3>(4);
+inline constexpr auto synthetic_paper = synthetic_policy<6, 64, 64, 3>(5);
+inline constexpr auto synthetic_wide = synthetic_policy<12, 128, 128, 5>(6);
+
+}  // namespace striker::core
