@@ -1,6 +1,7 @@
 #include "files.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
@@ -34,7 +35,8 @@ void require_writable(const std::filesystem::path& directory) {
     throw std::runtime_error(fmt::format("{}: cannot be made ({}); choose a place that is writable",
                                          directory.string(), error.message()));
   }
-  const std::filesystem::path probe = directory / ".striker-probe";
+  const std::filesystem::path probe =
+      directory / fmt::format(".striker-probe-{}", getpid());  // others may probe too
   write_file(probe, "");
   std::filesystem::remove(probe, error);
 }
