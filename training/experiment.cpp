@@ -50,12 +50,12 @@ double evaluate(const EnvConfig& task, sil::PoseMode pose, const Parameters& par
   return sum / evaluation_episodes;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why, const Run& run) {
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why, const SeedRun& run) {
   throw std::runtime_error(fmt::format("{}: {}; remove the files seed-{}.* beside it to repeat this run",
                                        file.string(), why, run.seed));
 }
 
-std::vector<double> read_curve(const std::filesystem::path& file, const Run& run) {
+std::vector<double> read_curve(const std::filesystem::path& file, const SeedRun& run) {
   std::istringstream lines(read_file(file));
   std::string line;
   std::vector<double> rewards;
@@ -113,16 +113,16 @@ std::vector<Variant> paper_readings(const std::string& base_text, const std::str
                 {every, go_on, near_aim, slow}}});
 }
 
-std::string name_of(const Run& run) {
+std::string name_of(const SeedRun& run) {
   return fmt::format("{}, seed {}", run.variant->name, run.seed);
 }
 
-std::array<std::filesystem::path, 3> files_of(const Run& run, const std::filesystem::path& directory) {
+std::array<std::filesystem::path, 3> files_of(const SeedRun& run, const std::filesystem::path& directory) {
   const auto stem = directory / "runs" / run.variant->name / fmt::format("seed-{}", run.seed);
   return {stem.string() + ".csv", stem.string() + ".safetensors", stem.string() + ".json"};
 }
 
-void carry_out(const Run& run, const std::filesystem::path& directory) {
+void carry_out(const SeedRun& run, const std::filesystem::path& directory) {
   const auto [curve_file, model_file, figures_file] = files_of(run, directory);
   require_writable(curve_file.parent_path());
   Training training(run.variant->config, run.seed);
@@ -148,7 +148,7 @@ void carry_out(const Run& run, const std::filesystem::path& directory) {
   write_file(figures_file, figures.dump(2) + "\n");
 }
 
-std::optional<RunFigures> load_run(const Run& run, const std::filesystem::path& directory) {
+std::optional<RunFigures> load_run(const SeedRun& run, const std::filesystem::path& directory) {
   const auto [curve_file, model_file, figures_file] = files_of(run, directory);
   if (!std::filesystem::exists(figures_file)) {
     return std::nullopt;

@@ -31,12 +31,12 @@ struct Variant {
 // What the paper leaves open, each reading alone and some together, with the RCS state.
 [[nodiscard]] std::vector<Variant> paper_readings(const std::string& base_text, const std::string& base_name);
 
-struct Run {
+struct SeedRun {
   const Variant* variant = nullptr;
   std::uint64_t seed = 0;
 };
 
-[[nodiscard]] std::string name_of(const Run& run);  // "rcs+1, seed 3"
+[[nodiscard]] std::string name_of(const SeedRun& run);  // "rcs+1, seed 3"
 
 // Evaluated greedily on the same held-out episodes, at the origin and anywhere.
 inline constexpr int evaluation_episodes = 2000;
@@ -49,14 +49,14 @@ struct RunFigures {
 };
 
 // Trains and evaluates, and writes the run's files.
-void carry_out(const Run& run, const std::filesystem::path& directory);
+void carry_out(const SeedRun& run, const std::filesystem::path& directory);
 
 // The files of a run: .csv, .safetensors, .json.
-[[nodiscard]] std::array<std::filesystem::path, 3> files_of(const Run& run,
+[[nodiscard]] std::array<std::filesystem::path, 3> files_of(const SeedRun& run,
                                                             const std::filesystem::path& directory);
 
 // Nothing if it is not there. Throws std::runtime_error, naming the file and the way out, if it is damaged or
 // was made with another configuration.
-[[nodiscard]] std::optional<RunFigures> load_run(const Run& run, const std::filesystem::path& directory);
+[[nodiscard]] std::optional<RunFigures> load_run(const SeedRun& run, const std::filesystem::path& directory);
 
 }  // namespace striker::training

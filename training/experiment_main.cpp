@@ -35,8 +35,8 @@ struct Options {
 
 struct Experiment {
   std::vector<Variant> variants;
-  std::vector<Run> runs;  // variant by variant
-  std::string table;      // "claims" or "readings"
+  std::vector<SeedRun> runs;  // variant by variant
+  std::string table;          // "claims" or "readings"
 };
 
 Experiment make_experiment(const Options& options, bool readings) {
