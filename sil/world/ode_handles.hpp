@@ -16,6 +16,8 @@ struct OdeDeleter {
   }
 };
 
+using ThreadingHandle = std::unique_ptr<std::remove_pointer_t<dThreadingImplementationID>,
+                                        OdeDeleter<dThreadingFreeImplementation>>;
 using WorldHandle = std::unique_ptr<std::remove_pointer_t<dWorldID>, OdeDeleter<dWorldDestroy>>;
 using GeomHandle = std::unique_ptr<std::remove_pointer_t<dGeomID>, OdeDeleter<dGeomDestroy>>;
 using JointGroupHandle =

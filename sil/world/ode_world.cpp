@@ -24,17 +24,20 @@ double kept_in_step(double step_s) {
   return std::pow(kept_after_1_s, step_s);
 }
 
-WorldHandle make_ode_world(double step_s) {
+OdeWorld::OdeWorld(double step_s) {
   init_ode();
-  WorldHandle world(dWorldCreate());
+  threading_.reset(dThreadingAllocateSelfThreadedImplementation());
+  world_.reset(dWorldCreate());
+  dWorldID world = world_.get();
+  dWorldSetStepThreadingImplementation(world, dThreadingImplementationGetFunctions(threading_.get()),
+                                       threading_.get());
   const Softness softness = soften(world_softness, step_s);
-  dWorldSetERP(world.get(), softness.erp);
-  dWorldSetCFM(world.get(), softness.cfm);
-  dWorldSetGravity(world.get(), 0.0, 0.0, -gravity_m_s2);
-  dWorldSetDamping(world.get(), 1.0 - kept_in_step(step_s), 1.0 - kept_in_step(step_s));
-  dWorldSetLinearDampingThreshold(world.get(), 0.0);
-  dWorldSetAngularDampingThreshold(world.get(), 0.0);
-  return world;
+  dWorldSetERP(world, softness.erp);
+  dWorldSetCFM(world, softness.cfm);
+  dWorldSetGravity(world, 0.0, 0.0, -gravity_m_s2);
+  dWorldSetDamping(world, 1.0 - kept_in_step(step_s), 1.0 - kept_in_step(step_s));
+  dWorldSetLinearDampingThreshold(world, 0.0);
+  dWorldSetAngularDampingThreshold(world, 0.0);
 }
 
 Ball make_ball(dWorldID world) {

@@ -12,8 +12,18 @@ inline constexpr double gravity_m_s2 = 9.81;
 // damps last: a body moves with the solved velocity, then loses this share of it.
 [[nodiscard]] double kept_in_step(double step_s);
 
-// An empty world. ODE is initialised once in a process and never closed: worlds come and go at any time.
-[[nodiscard]] WorldHandle make_ode_world(double step_s);
+// Worlds that one process steps in several threads at once need a job queue each: the one that ODE gives them
+// all is not made for that (it aborts on "m_dependencies_count != 0").
+class OdeWorld {
+ public:
+  // Empty. ODE is initialised once in a process and never closed: worlds come and go at any time.
+  explicit OdeWorld(double step_s);
+  [[nodiscard]] dWorldID get() const { return world_.get(); }
+
+ private:
+  ThreadingHandle threading_;
+  WorldHandle world_;
+};
 
 struct Ball {
   dBodyID body = nullptr;

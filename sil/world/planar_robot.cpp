@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/robot_specs.hpp"
-
 namespace striker::sil {
 namespace {
 
@@ -18,11 +16,6 @@ struct Twist {
 
 constexpr bool alike(const WheelServo& a, const WheelServo& b) {
   return a.rim_speed_m_s == b.rim_speed_m_s && a.torque_ceiling_Nm == b.torque_ceiling_Nm;
-}
-
-double straight(double speed_m_s, const WheelServo& servo, double step_s) {
-  const double most = step_s * 2.0 * rim_force_limit_N(servo) / planar_mass_kg;
-  return speed_m_s + std::clamp(servo.rim_speed_m_s - speed_m_s, -most, most);
 }
 
 // Each wheel's force moves the other rim a little, too: 10 % of its own. Solved by turns (Gauss-Seidel), a
@@ -56,10 +49,6 @@ PlanarRobot planar_robot(const Pose& pose) {
           .turned_cos = 1.0};
 }
 
-double rim_force_limit_N(const WheelServo& servo) {
-  return std::min(servo.torque_ceiling_Nm / wheel_radius_m, planar_grip_N);
-}
-
 double speed_m_s(const PlanarRobot& robot) {
   return robot.velocity_m_s.x * robot.heading.x + robot.velocity_m_s.y * robot.heading.y;
 }
@@ -72,7 +61,7 @@ double rim_speed_m_s(const PlanarRobot& robot, Wheel wheel) {
 void step(PlanarRobot& robot, const WheelServos& servos, double step_s, double kept) {
   Twist twist{speed_m_s(robot), robot.yaw_rate_rad_s};
   if (twist.yaw_rate_rad_s == 0.0 && alike(servos[0], servos[1])) {
-    twist.speed_m_s = straight(twist.speed_m_s, servos[0], step_s);
+    twist.speed_m_s = straight_speed_m_s(twist.speed_m_s, servos[0], step_s);
   } else {
     twist.yaw_rate_rad_s *=
         (planar_own_inertia_kgm2 + planar_wheel_inertia_kgm2 * robot.turned_cos) / planar_inertia_kgm2;

@@ -14,8 +14,10 @@
 // that costs is measured in tests/sim/planar_world_test.cpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
+#include "world/robot_specs.hpp"
 #include "world/world.hpp"
 
 namespace striker::sil {
@@ -48,7 +50,15 @@ inline constexpr double planar_grip_N = 3.0 * 9.81 * 1.7 / 2.0;  // of one tyre
 void step(PlanarRobot& robot, const WheelServos& servos, double step_s, double kept);
 
 // The largest force of a wheel at its rim.
-[[nodiscard]] double rim_force_limit_N(const WheelServo& servo);
+[[nodiscard]] inline double rim_force_limit_N(const WheelServo& servo) {
+  return std::min(servo.torque_ceiling_Nm / wheel_radius_m, planar_grip_N);
+}
+
+// Straight ahead, both wheels alike: the speed that the body moves with in this step, before damping.
+[[nodiscard]] inline double straight_speed_m_s(double speed_m_s, const WheelServo& servo, double step_s) {
+  const double most = step_s * 2.0 * rim_force_limit_N(servo) / planar_mass_kg;
+  return speed_m_s + std::clamp(servo.rim_speed_m_s - speed_m_s, -most, most);
+}
 
 // Speed along the heading, signed.
 [[nodiscard]] double speed_m_s(const PlanarRobot& robot);

@@ -31,7 +31,7 @@ class Collision {
   void roll(const WheelServo& servo, double side_m);
 
   double step_s_;
-  WorldHandle world_;
+  OdeWorld world_;
   Contacts contacts_;
   JointGroupHandle wheels_;
   Field field_;
@@ -43,7 +43,7 @@ class Collision {
 
 Collision::Collision(double step_s)
     : step_s_(step_s),
-      world_(make_ode_world(step_s)),
+      world_(step_s),
       contacts_(world_.get(), step_s),
       wheels_(dJointGroupCreate(0)),
       field_(make_field(false)),

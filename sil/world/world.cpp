@@ -35,7 +35,7 @@ struct World::Impl {
 
   double step_s;
   bool has_walls;
-  WorldHandle world;
+  OdeWorld world;
   Contacts contacts;
   Field field;
   std::vector<Robot> robots;
@@ -45,7 +45,7 @@ struct World::Impl {
 World::Impl::Impl(const WorldConfig& config)
     : step_s(config.step_s),
       has_walls(config.walls),
-      world(make_ode_world(config.step_s)),
+      world(config.step_s),
       contacts(world.get(), config.step_s),
       field(make_field(config.walls)),
       ball(make_ball(world.get())) {

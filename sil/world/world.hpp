@@ -1,8 +1,9 @@
 // The AI Soccer world in ODE: field, ball, and one to ten two-wheel robots, with full wheel bodies.
 //
 // Coordinates: x along the field towards the opponent's goal, y to the left, origin in the centre; headings
-// are anticlockwise from +x. SI units. One World is used by one thread at a time; many worlds may live in
-// one process. The same sequence of calls gives the same bits, whatever the world did before it was placed.
+// are anticlockwise from +x. SI units. A World is made and used by one thread; many worlds may live in one
+// process, and be stepped by different threads at once. The same sequence of calls gives the same bits,
+// whatever the world did before it was placed.
 //
 // Constants: AI World Cup test_world, branch master 37312a93 (2019), unless a comment names another source.
 #pragma once

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <numbers>
 #include <stdexcept>
+#include <thread>
 
 #include "play.hpp"
 
@@ -186,6 +187,34 @@ TEST(PlanarWorld, RunsTheSameAfterAnythingElse) {
     contacts += late.contact ? 1 : 0;
   }
   EXPECT_GT(contacts, 0);
+}
+
+template <typename AnyWorld>
+double sum_of_rewards(AnyWorld world) {
+  double sum = 0.0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    sum += play(world, draw_kick(3, i, PoseMode::anywhere), sequence(i)).reward;
+  }
+  return sum;
+}
+
+TEST(Worlds, RunInSeveralThreadsAtOnce) {
+  const double fast = sum_of_rewards(PlanarWorld(0.010));
+  const double full = sum_of_rewards(World(kick_world(0.010)));
+  std::array<double, 4> sums{};
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      threads.emplace_back([&sums, i] {
+        sums.at(i) =
+            i % 2 == 0 ? sum_of_rewards(PlanarWorld(0.010)) : sum_of_rewards(World(kick_world(0.010)));
+      });
+    }
+  }
+  EXPECT_EQ(sums[0], fast);
+  EXPECT_EQ(sums[1], full);
+  EXPECT_EQ(sums[2], fast);
+  EXPECT_EQ(sums[3], full);
 }
 
 TEST(PlanarWorld, RefusesWhatItDoesNotHold) {
