@@ -1,4 +1,4 @@
-// The three programs as a user meets them: help, results, and one line and code 2 for bad input.
+// The programs as a user meets them: help, results, and one line and code 2 for bad input.
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -62,6 +62,10 @@ TEST_F(CommandLine, HelpNamesEveryOption) {
   for (const char* option :
        {"--model", "--episodes", "--seed", "--pose", "--velocities", "--world", "--decisions", "--json"}) {
     EXPECT_NE(help(STRIKER_EVALUATE).find(option), std::string::npos) << option;
+  }
+  for (const char* option : {"--episodes", "--seed", "--pose", "--replay", "--rivals", "--jobs",
+                             "--position-cell", "--speed-cell", "--json", "--csv"}) {
+    EXPECT_NE(help(STRIKER_CEILING).find(option), std::string::npos) << option;
   }
   for (const char* option : {"MODEL", "--output", "--report"}) {
     EXPECT_NE(help(STRIKER_EXPORT).find(option), std::string::npos) << option;
@@ -170,6 +174,40 @@ TEST_F(CommandLine, EvaluateRefusesBadInput) {
   expect_refusal(evaluate_with(model, "--decisions " + path("none.csv")), "none.csv");
 }
 
+TEST_F(CommandLine, CeilingWritesWhatItFound) {
+  const std::string command =
+      fmt::format("{} --episodes 20 --seed 4 --pose anywhere --rivals --replay full", STRIKER_CEILING);
+  for (const int jobs : {1, 2}) {
+    const Result result = run(
+        fmt::format("{0} --jobs {1} --json {2}{1}.json --csv {2}{1}.csv", command, jobs, path("ceiling")));
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.out.find("planner"), std::string::npos);
+  }
+  EXPECT_EQ(content_of(path("ceiling1.json")), content_of(path("ceiling2.json")));
+  const std::string csv = content_of(path("ceiling1.csv"));
+  EXPECT_EQ(csv, content_of(path("ceiling2.csv")));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 21);
+  const auto report = nlohmann::json::parse(content_of(path("ceiling1.json")));
+  EXPECT_EQ(report.at("world"), "full");
+  EXPECT_EQ(report.at("pose"), "anywhere");
+  const double mean = report.at("mean_reward");
+  EXPECT_NEAR(mean, report.at("replay").at("better").at("mean_reward"), 0.05);
+  EXPECT_GT(mean, report.at("rivals").at("planner").at("mean_reward"));
+}
+
+TEST_F(CommandLine, CeilingRefusesBadInput) {
+  const auto with = [](const std::string& more) { return fmt::format("{} {}", STRIKER_CEILING, more); };
+  expect_refusal(with("--episodes 2"), "--seed");
+  expect_refusal(with("--seed 1"), "--episodes");
+  expect_refusal(with("--seed 1 --episodes 0"), "--episodes");
+  expect_refusal(with("--seed -1 --episodes 2"), "--seed");
+  expect_refusal(with("--seed 1 --episodes 2 --pose here"), "--pose");
+  expect_refusal(with("--seed 1 --episodes 2 --replay bus"), "--replay");
+  expect_refusal(with("--seed 1 --episodes 2 --jobs 0"), "--jobs");
+  expect_refusal(with("--seed 1 --episodes 2 --position-cell 0"), "--position-cell");
+  expect_refusal(with("--seed 1 --episodes 2 --speed-cell 0"), "--speed-cell");
+}
+
 TEST_F(CommandLine, AnUnwritableResultIsRefusedAndNothingIsLeft) {
   const std::string model = a_model();
   // No standard output is expected: these two fail after their work.
@@ -177,6 +215,9 @@ TEST_F(CommandLine, AnUnwritableResultIsRefusedAndNothingIsLeft) {
       run(fmt::format("{} --model {} --episodes 2 --seed 1 --json /no/such/r.json", STRIKER_EVALUATE, model));
   EXPECT_EQ(report.code, 2);
   EXPECT_NE(report.err.find("/no/such/r.json"), std::string::npos) << report.err;
+  const Result ceiling = run(fmt::format("{} --episodes 2 --seed 1 --csv /no/such/c.csv", STRIKER_CEILING));
+  EXPECT_EQ(ceiling.code, 2);
+  EXPECT_NE(ceiling.err.find("/no/such/c.csv"), std::string::npos) << ceiling.err;
   const Result header = run(fmt::format("{} {} -o {}", STRIKER_EXPORT, model, path("no/such.hpp")));
   EXPECT_EQ(header.code, 2);
   EXPECT_NE(header.err.find("no/such.hpp"), std::string::npos) << header.err;

@@ -1,0 +1,151 @@
+// The ceiling is attained, and nothing is above it.
+#include "ceiling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "ceiling_run.hpp"
+#include "world/random.hpp"
+
+namespace striker::training {
+namespace {
+
+const Reachable& reachable() {
+  static const Reachable states({.position_cell_m = 0.005, .speed_cell_m_s = 0.02});
+  return states;
+}
+
+sil::KickOutcome replayed(KickEnv& env, std::uint64_t seed, std::uint64_t episode, const Actions& actions) {
+  return play(env, seed, episode, [&actions](const KickEnv& seen) -> int {
+    return actions.at(static_cast<std::size_t>(sil::kick_decisions - seen.decisions_left()));
+  });
+}
+
+// What the grid may lose in an episode: about a cell of speed, at 3.92 a m/s.
+constexpr double grid_loss = 0.1;
+
+TEST(Ceiling, TheFastWorldGivesExactlyWhatWasFound) {
+  CeilingSearch search(reachable());
+  for (const sil::PoseMode pose : {sil::PoseMode::origin, sil::PoseMode::anywhere}) {
+    KickEnv env({.world = World::fast, .pose = pose});
+    int contacts = 0;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const Ceiling ceiling = search.search(sil::draw_kick(21, i, pose));
+      for (const Found& found : {ceiling.best, ceiling.safe}) {
+        const sil::KickOutcome outcome = replayed(env, 21, i, found.actions);
+        EXPECT_NEAR(outcome.reward, found.reward, 1e-9) << i;
+        EXPECT_EQ(outcome.contact, found.contact_step >= 0) << i;
+        EXPECT_EQ(outcome.contact_decision, found.contact_step < 0 ? -1 : found.contact_step / 5) << i;
+      }
+      EXPECT_GE(ceiling.best.reward, ceiling.safe.reward) << i;
+      contacts += ceiling.best.contact_step >= 0 ? 1 : 0;
+    }
+    EXPECT_GT(contacts, 150);
+    EXPECT_LT(contacts, 200);
+  }
+}
+
+// One of the two at least: an edge may fall differently there.
+TEST(Ceiling, TheFullWorldGivesWhatWasFound) {
+  CeilingSearch search(reachable());
+  KickEnv env({.world = World::full});
+  int edges = 0;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    const Ceiling ceiling = search.search(sil::draw_kick(22, i, sil::PoseMode::origin));
+    const double best = replayed(env, 22, i, ceiling.best.actions).reward;
+    const double safe = replayed(env, 22, i, ceiling.safe.actions).reward;
+    EXPECT_NEAR(safe, ceiling.safe.reward, 0.01) << i;
+    EXPECT_LT(std::max(best, safe), ceiling.best.reward + 0.01) << i;
+    edges += std::abs(best - ceiling.best.reward) > 0.01 ? 1 : 0;
+  }
+  EXPECT_LT(edges, 6);
+}
+
+TEST(Ceiling, NoRandomSequenceIsAboveIt) {
+  CeilingSearch search(reachable());
+  KickEnv env({.world = World::fast});
+  int contacts = 0;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    const double ceiling = search.search(sil::draw_kick(23, i, sil::PoseMode::origin)).best.reward;
+    for (std::uint64_t k = 0; k < 200; ++k) {
+      // Each action holds for up to 1, 4 or 16 decisions.
+      sil::Random random(k, i, 300);
+      const std::uint64_t longest = std::uint64_t{1} << (2 * (k % 3));
+      std::uint64_t held = 0;
+      int action = 0;
+      const sil::KickOutcome outcome = play(env, 23, i, [&](const KickEnv&) {
+        if (held-- == 0) {
+          held = random.below(longest);
+          action = static_cast<int>(random.below(3));
+        }
+        return action;
+      });
+      EXPECT_LE(outcome.reward, ceiling + grid_loss) << i << " " << k;
+      contacts += outcome.contact ? 1 : 0;
+    }
+  }
+  EXPECT_GT(contacts, 1000);
+}
+
+TEST(Ceiling, NoRivalIsAboveIt) {
+  CeilingOptions options{.seed = 24, .episodes = 200, .rivals = true, .jobs = 2};
+  const auto episodes = run_ceiling(options, reachable(), [](int) { return true; });
+  ASSERT_EQ(episodes.size(), 200U);
+  double above = 0.0;
+  for (const CeilingEpisode& episode : episodes) {
+    for (const sil::KickOutcome& rival : episode.rivals) {
+      EXPECT_LE(rival.reward, episode.ceiling.best.reward + grid_loss);
+      above = std::max(above, rival.reward - episode.ceiling.best.reward);
+    }
+  }
+  RecordProperty("above", std::to_string(above));
+}
+
+// The same reward or more from a finer grid, but hardly more.
+TEST(Ceiling, AFinerGridHardlyGainsAnything) {
+  const Reachable coarse({.position_cell_m = 0.010, .speed_cell_m_s = 0.04});
+  CeilingSearch fine_search(reachable());
+  CeilingSearch coarse_search(coarse);
+  constexpr int episodes = 300;
+  double gain = 0.0;
+  for (std::uint64_t i = 0; i < episodes; ++i) {
+    const sil::KickStart start = sil::draw_kick(25, i, sil::PoseMode::origin);
+    gain += (fine_search.search(start).best.reward - coarse_search.search(start).best.reward) / episodes;
+  }
+  EXPECT_LT(std::abs(gain), 0.015);
+}
+
+TEST(Ceiling, AnEpisodeIsTheSameAloneAndAfterOthers) {
+  CeilingSearch busy(reachable());
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    const sil::KickStart start = sil::draw_kick(26, i, sil::PoseMode::origin);
+    CeilingSearch fresh(reachable());
+    EXPECT_EQ(busy.search(start).best.actions, fresh.search(start).best.actions);
+  }
+}
+
+TEST(Ceiling, TheReportIsTheSameWithAnyNumberOfJobs) {
+  CeilingOptions options{.seed = 27, .episodes = 60, .rivals = true, .jobs = 1};
+  const auto report = [&options] {
+    const auto episodes = run_ceiling(options, reachable(), [](int) { return true; });
+    return ceiling_table(options, episodes) + ceiling_json(options, episodes) +
+           ceiling_csv(options, episodes);
+  };
+  const std::string one = report();
+  options.jobs = 2;
+  EXPECT_EQ(report(), one);
+  options.jobs = 5;
+  EXPECT_EQ(report(), one);
+  EXPECT_NE(one.find("\"mean_reward\""), std::string::npos);
+}
+
+TEST(Ceiling, AStoppedRunHasNoResult) {
+  const CeilingOptions options{.seed = 28, .episodes = 1'000'000, .jobs = 2};
+  EXPECT_TRUE(run_ceiling(options, reachable(), [](int done) { return done < 3; }).empty());
+}
+
+}  // namespace
+}  // namespace striker::training
