@@ -18,7 +18,7 @@
 #include "bus/timed_link.hpp"
 #include "kick/decision_csv.hpp"
 #include "kick/kick_run.hpp"
-#include "ports/linux/real_time.hpp"
+#include "ports/linux/periodic_clock.hpp"
 #include "ports/linux/stop_signal.hpp"
 
 namespace {
@@ -108,7 +108,8 @@ class Pacer {
   }
 
  private:
-  linux_port::PeriodicClock clock_;
+  linux_port::MonotonicClock monotonic_;
+  linux_port::PeriodicClock clock_{monotonic_};
   std::int64_t ticks_ = 0;
   std::uint64_t missed_ = 0;
   std::int64_t lateness_max_ns_ = 0;

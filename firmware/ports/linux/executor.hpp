@@ -1,13 +1,16 @@
-// Runs the controller on a CAN socket until a stop signal: in lockstep with the bus's SYNC frames, or on the
-// port's own 1 ms clock.
+// Runs the controller until a stop signal: in lockstep with a CAN socket's SYNC frames, or on the port's own
+// 1 ms clock.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 
 #include "can/messages.hpp"
 #include "ports/linux/can_socket.hpp"
+#include "ports/linux/loop_timing.hpp"
+#include "ports/linux/periodic_clock.hpp"
 
 namespace striker::linux_port {
 
@@ -25,16 +28,27 @@ struct LockstepReport {
 // Without a SYNC for `sync_timeout` of wall clock, once they have begun: fault sync_lost, torque 0.
 LockstepReport run_lockstep(CanSocket& socket, std::chrono::milliseconds sync_timeout);
 
-struct RealTimeReport {
-  std::uint64_t ticks = 0;
-  std::uint64_t missed_periods = 0;
-  std::uint64_t dropped_frames = 0;
-  std::int64_t lateness_max_ns = 0;
-  std::int64_t lateness_sum_ns = 0;
-  std::int64_t execution_max_ns = 0;
+struct RealTimeOptions {
+  std::int64_t period_ns = tick_period_ns;  // of the loop; the controller takes each for 1 ms
+  std::uint32_t overrun_limit = 500;
+  std::uint32_t frames_per_tick = 64;  // up to greatest_frames_per_tick
+  std::uint64_t ticks = 0;             // stops after these; 0: a stop signal alone stops
 };
 
-// More than `overrun_limit` missed periods within 1,000: fault overrun, torque 0.
-RealTimeReport run_real_time(CanSocket& socket, std::uint32_t overrun_limit);
+inline constexpr std::uint32_t greatest_frames_per_tick = 1024;
+
+// The hard real-time loop. A tick waits for its absolute deadline, receives at most `frames_per_tick` frames
+// (more wait for the next), steps, sends, and measures. Between the first deadline and the last it allocates
+// nothing, takes no lock, and calls the kernel for nothing but
+//
+//   clock_nanosleep   once a tick
+//   recvmsg, write    on a CAN socket: for every frame received and once more; for every frame sent
+//
+// (and clock_gettime, where the machine has no vDSO for it). Overruns: a wake-up that is late by whole
+// periods skips them; they are counted, never run in a burst, and the deadlines stay on their grid. More than
+// `overrun_limit` missed of the last 1,000: fault overrun, torque 0. `fault` follows the controller's, for
+// another thread to tell.
+void run_real_time(FrameBus& bus, LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing,
+                   std::atomic<can::Fault>& fault);
 
 }  // namespace striker::linux_port

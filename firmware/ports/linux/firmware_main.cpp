@@ -1,68 +1,204 @@
-// striker-firmware: the kick controller as a Linux process on a CAN interface.
+// striker-firmware: the kick controller as a Linux process, on a CAN interface or on a bench in the process.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
 #include <exception>
+#include <optional>
 #include <string>
+#include <thread>
 
+#include "ports/linux/bench_peer.hpp"
 #include "ports/linux/executor.hpp"
+#include "ports/linux/outbox.hpp"
 #include "ports/linux/real_time.hpp"
 #include "ports/linux/stop_signal.hpp"
 
 namespace {
 
+using namespace striker;
 using namespace striker::linux_port;
 
 struct Options {
   std::string can;
+  bool in_process = false;
   std::string clock = "sync";
   unsigned sync_timeout_ms = 2000;
-  unsigned overrun_limit = 500;
+  std::string policy = "fifo";
   int priority = 80;
+  std::int64_t runtime_us = 300;
+  int cpu = -1;
+  std::int64_t period_us = 1000;
+  RealTimeOptions loop;
+  std::string json;
 };
 
-void define(CLI::App& app, Options& options) {
-  app.add_option("--can", options.can, "CAN interface, for example vcan0")->required();
+void define_bus(CLI::App& app, Options& options) {
+  auto* bus = app.add_option_group("bus", "one of");
+  bus->add_option("--can", options.can, "CAN interface, for example vcan0");
+  bus->add_flag("--in-process", options.in_process,
+                "no CAN: a bench in this process plays drives, vision and operator; realtime only");
+  bus->require_option(1);
   app.add_option("--clock", options.clock, "what ticks the controller")
       ->check(CLI::IsMember({"sync", "realtime"}))
       ->capture_default_str();
   app.add_option("--sync-timeout", options.sync_timeout_ms, "sync: fault without a SYNC for this long, in ms")
       ->check(CLI::Range(1, 3600000))
       ->capture_default_str();
-  app.add_option("--overrun-limit", options.overrun_limit,
-                 "realtime: fault beyond this many missed periods within 1,000")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  app.add_option("--priority", options.priority, "SCHED_FIFO priority, where permitted")
-      ->check(CLI::Range(1, 99))
-      ->capture_default_str();
 }
 
-void run_on_sync(CanSocket& socket, const Options& options) {
+void define_real_time(CLI::App& app, Options& options) {
+  app.add_option("--policy", options.policy,
+                 "scheduling, where permitted; deadline with --cpu needs a cpuset of its own")
+      ->check(CLI::IsMember({"fifo", "deadline", "other"}))
+      ->capture_default_str();
+  app.add_option("--priority", options.priority, "fifo: the priority")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
+  app.add_option("--runtime-us", options.runtime_us, "deadline: reserved in every period")
+      ->check(CLI::Range(10, 1000000))
+      ->capture_default_str();
+  app.add_option("--cpu", options.cpu, "the only processor to run on")->check(CLI::Range(0, CPU_SETSIZE - 1));
+  app.add_option("--period-us", options.period_us,
+                 "realtime: of the loop; each is 1 ms to the controller, so others than 1000 are for tests")
+      ->check(CLI::Range(50, 1000000))
+      ->capture_default_str();
+  app.add_option("--frames-per-tick", options.loop.frames_per_tick,
+                 "realtime: receive at most so many; more wait for the next tick")
+      ->check(CLI::Range(std::uint32_t{1}, greatest_frames_per_tick))
+      ->capture_default_str();
+  app.add_option("--overrun-limit", options.loop.overrun_limit,
+                 "realtime: fault beyond this many missed periods within 1,000")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  app.add_option("--ticks", options.loop.ticks, "realtime: stop after this many; 0: at a signal")
+      ->capture_default_str();
+  app.add_option("--json", options.json, "realtime: write the timing report at the end");
+}
+
+RealTimeSettings settings_of(const Options& options) {
+  return {.policy = options.policy == "fifo"       ? Policy::fifo
+                    : options.policy == "deadline" ? Policy::deadline
+                                                   : Policy::other,
+          .priority = options.priority,
+          .runtime_ns = options.runtime_us * 1000,
+          .period_ns = options.period_us * 1000,
+          .cpu = options.cpu};
+}
+
+// A thread beside the loop, which stop signals do not reach. `work` is called until the object goes.
+class Helper {
+ public:
+  template <class Work>
+  explicit Helper(Work work)
+      : thread_([work = std::move(work)](const std::stop_token& stop) mutable {
+          sigset_t all;
+          sigfillset(&all);
+          pthread_sigmask(SIG_SETMASK, &all, nullptr);
+          while (!stop.stop_requested()) {
+            work();
+          }
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
+
+class Bench {
+ public:
+  Bench(InProcessBus& bus, const RealTimeSettings& settings)
+      : peer_(bus), ticks_(clock_, settings.period_ns), helper_([this, settings] {
+          if (first_) {
+            stay_below(settings);
+            first_ = false;
+          }
+          ticks_.wait();
+          peer_.tick(clock_.now_ns());
+        }) {}
+
+ private:
+  BenchPeer peer_;
+  MonotonicClock clock_;
+  PeriodicClock ticks_;
+  bool first_ = true;
+  Helper helper_;
+};
+
+void print_granted(const Options& options, const Granted& granted) {
+  fmt::print("striker-firmware: on {}, clock {}\n", options.in_process ? "a bench in process" : options.can,
+             options.clock);
+  for (const std::string& line : granted.lines) {
+    fmt::print("  {}\n", line);
+  }
+  std::fflush(stdout);
+  if (!granted.complete) {
+    fmt::print(
+        stderr,
+        "striker-firmware: the kernel refused what stands above: timing is best effort; run as root or "
+        "grant CAP_SYS_NICE and CAP_IPC_LOCK\n");
+  }
+}
+
+void run_on_sync(const Options& options) {
+  if (options.in_process) {
+    throw std::runtime_error("--in-process has no SYNC: use it with --clock realtime");
+  }
+  CanSocket socket(options.can, controller_receives);
+  print_granted(options, ask_for_real_time(settings_of(options)));
   const LockstepReport report = run_lockstep(socket, std::chrono::milliseconds(options.sync_timeout_ms));
   fmt::print("striker-firmware: stopped after {} ticks; {} frames dropped\n", report.ticks,
              report.dropped_frames);
 }
 
-void run_on_own_clock(CanSocket& socket, const Options& options) {
-  const RealTimeReport report = run_real_time(socket, options.overrun_limit);
-  const double ticks = static_cast<double>(report.ticks == 0 ? 1 : report.ticks);
-  fmt::print(
-      "striker-firmware: stopped after {} ticks; {} periods missed; lateness mean {:.1f} us, max {:.1f} us; "
-      "execution max {:.1f} us; {} frames dropped\n",
-      report.ticks, report.missed_periods, static_cast<double>(report.lateness_sum_ns) / ticks / 1e3,
-      static_cast<double>(report.lateness_max_ns) / 1e3, static_cast<double>(report.execution_max_ns) / 1e3,
-      report.dropped_frames);
+void run_on_own_clock(Options options) {
+  options.loop.period_ns = options.period_us * 1000;
+  const RealTimeSettings settings = settings_of(options);
+  std::optional<CanSocket> socket;
+  InProcessBus in_process;
+  std::optional<Bench> bench;
+  if (options.in_process) {
+    bench.emplace(in_process, settings);
+  } else {
+    socket.emplace(options.can, controller_receives);
+    socket->stamp_frames();
+  }
+  std::atomic<can::Fault> fault = can::Fault::none;
+  FaultAnnouncer announcer;
+  std::optional<Helper> announcing;
+  announcing.emplace([&] {
+    announcer.announce(fault.load(std::memory_order_relaxed));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  });
+
+  Granted granted = ask_for_real_time(settings);
+  granted.lines.push_back(fmt::format("a tick every {} us, at most {} frames received in each",
+                                      options.period_us, options.loop.frames_per_tick));
+  granted.lines.push_back(fmt::format("late by whole periods: skipped; fault beyond {} missed of {}",
+                                      options.loop.overrun_limit, 1000));
+  print_granted(options, granted);
+
+  MonotonicClock clock;
+  LoopTiming timing;
+  FrameBus& bus = socket ? static_cast<FrameBus&>(*socket) : in_process;
+  run_real_time(bus, clock, options.loop, timing, fault);
+  announcing.reset();
+  announcer.announce(fault);
+  fmt::print("striker-firmware: {}\n", summary(timing));
+  if (!options.json.empty()) {
+    write_json(timing, granted.lines, options.json);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "The kick controller on a CAN interface. Stops cleanly on SIGINT or SIGTERM, with torque 0 sent.",
-      "striker-firmware");
+  CLI::App app("The kick controller. Stops cleanly on SIGINT or SIGTERM, with torque 0 sent.",
+               "striker-firmware");
   Options options;
-  define(app, options);
+  define_bus(app, options);
+  define_real_time(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -70,17 +206,7 @@ int main(int argc, char** argv) {
   }
   try {
     catch_stop_signals();
-    CanSocket socket(options.can, controller_receives);
-    const std::string refused = ask_for_real_time(options.priority);
-    if (!refused.empty()) {
-      fmt::print(stderr,
-                 "striker-firmware: {}: timing is best effort; run as root or grant CAP_SYS_NICE and "
-                 "CAP_IPC_LOCK\n",
-                 refused);
-    }
-    fmt::print("striker-firmware: on {}, clock {}\n", options.can, options.clock);
-    std::fflush(stdout);
-    options.clock == "sync" ? run_on_sync(socket, options) : run_on_own_clock(socket, options);
+    options.clock == "sync" ? run_on_sync(options) : run_on_own_clock(options);
     return 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "striker-firmware: {}\n", error.what());

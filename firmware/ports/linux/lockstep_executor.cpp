@@ -31,7 +31,7 @@ LockstepReport run_lockstep(CanSocket& socket, std::chrono::milliseconds sync_ti
       clock.controller().enter_fault(can::Fault::sync_lost, outputs);
       report.dropped_frames += send_all(socket, outputs);
     }
-    announcer.announce(clock.controller());
+    announcer.announce(clock.controller().fault());
     socket.wait(std::chrono::milliseconds(20));
   }
   clock.controller().disarm(outputs);

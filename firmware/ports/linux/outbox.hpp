@@ -6,26 +6,26 @@
 #include <cstdint>
 
 #include "core/controller.hpp"
-#include "ports/linux/can_socket.hpp"
+#include "ports/linux/frame_bus.hpp"
 
 namespace striker::linux_port {
 
-// The number of frames that the socket did not take.
-inline std::uint64_t send_all(CanSocket& socket, const core::Outputs& outputs) {
+// The number of frames that the bus did not take.
+inline std::uint64_t send_all(FrameBus& bus, const core::Outputs& outputs) {
   std::uint64_t dropped = 0;
   for (const can::Frame& frame : outputs.frames()) {
-    dropped += socket.send(frame) ? 0 : 1;
+    dropped += bus.send(frame) ? 0 : 1;
   }
   return dropped;
 }
 
 class FaultAnnouncer {
  public:
-  void announce(const core::Controller& controller) {
-    if (controller.fault() == told_) {
+  void announce(can::Fault fault) {
+    if (fault == told_) {
       return;
     }
-    told_ = controller.fault();
+    told_ = fault;
     if (told_ == can::Fault::none) {
       fmt::print(stderr, "striker-firmware: fault cleared\n");
     } else {

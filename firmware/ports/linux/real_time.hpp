@@ -1,37 +1,33 @@
-// What a Linux process can ask of the kernel to be on time, and an absolute-deadline clock.
+// What a Linux process can ask of the kernel to be on time.
 #pragma once
 
 #include <cstdint>
-#include <ctime>
 #include <string>
+#include <vector>
 
 namespace striker::linux_port {
 
-inline constexpr std::int64_t period_ns = 1'000'000;  // the controller's tick
+enum class Policy : std::uint8_t { fifo, deadline, other };
 
-// SCHED_FIFO at this priority, and all memory locked. Returns what was refused and why, or nothing.
-[[nodiscard]] std::string ask_for_real_time(int priority);
-
-// CLOCK_MONOTONIC in ns.
-[[nodiscard]] std::int64_t monotonic_ns();
-
-// Periodic absolute deadlines. A late wake-up skips whole periods: it never runs them in a burst.
-class PeriodicClock {
- public:
-  PeriodicClock();
-
-  struct Wake {
-    std::uint32_t tick;        // periods since the start; skipped ones count
-    std::int64_t lateness_ns;  // after the deadline that it waited for
-    std::uint32_t missed;      // whole periods of that lateness: skipped
-  };
-
-  // Sleeps to the next deadline.
-  Wake wait();
-
- private:
-  std::int64_t next_ns_;
-  std::uint32_t tick_ = 0;
+struct RealTimeSettings {
+  Policy policy = Policy::fifo;
+  int priority = 80;            // SCHED_FIFO
+  std::int64_t runtime_ns = 0;  // SCHED_DEADLINE: reserved in every period
+  std::int64_t period_ns = 0;   // SCHED_DEADLINE
+  int cpu = -1;                 // the only processor to run on; -1: any
 };
+
+// One line a measure, for a terminal and the timing report: what was granted, and what was refused and why.
+struct Granted {
+  std::vector<std::string> lines;
+  bool complete = true;
+};
+
+// For the calling thread: processor, scheduling policy. For the process: all memory locked, now and to come,
+// and the stack touched; for the machine, while the process lives: no deep sleep (/dev/cpu_dma_latency).
+[[nodiscard]] Granted ask_for_real_time(const RealTimeSettings& settings);
+
+// Best effort for a helper thread: just below the loop's priority, and not on its processor.
+void stay_below(const RealTimeSettings& settings);
 
 }  // namespace striker::linux_port

@@ -1,44 +1,57 @@
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "core/controller.hpp"
 #include "ports/linux/executor.hpp"
 #include "ports/linux/outbox.hpp"
-#include "ports/linux/real_time.hpp"
+#include "ports/linux/overrun_limit.hpp"
 #include "ports/linux/stop_signal.hpp"
 
 namespace striker::linux_port {
 
 namespace {
 
-// A flooded bus must not stretch a tick: what does not fit waits in the socket for the next.
-constexpr std::size_t frames_per_tick = 64;
+// The frames of one tick. A flooded bus must not stretch it: what does not fit waits for the next.
+class TickFrames {
+ public:
+  explicit TickFrames(std::uint32_t limit) : limit_(std::min(limit, greatest_frames_per_tick)) {}
 
-constexpr std::uint32_t overrun_window_ticks = 1000;
-
-std::span<const can::Frame> take_frames(CanSocket& socket, std::array<can::Frame, frames_per_tick>& storage) {
-  std::size_t count = 0;
-  while (count < storage.size()) {
-    const auto frame = socket.receive();
-    if (!frame) {
-      break;
+  void take(FrameBus& bus) {
+    count_ = 0;
+    while (count_ < limit_) {
+      const auto received = bus.receive_stamped();
+      if (!received) {
+        return;
+      }
+      oldest_ns_ = count_ == 0 ? received->received_ns : std::min(oldest_ns_, received->received_ns);
+      frames_[count_++] = received->frame;
     }
-    storage[count++] = *frame;
   }
-  return std::span(storage).first(count);
-}
+
+  [[nodiscard]] std::span<const can::Frame> frames() const { return std::span(frames_).first(count_); }
+  [[nodiscard]] bool full() const { return count_ == limit_; }
+  [[nodiscard]] std::int64_t oldest_ns() const { return oldest_ns_; }
+
+ private:
+  std::size_t limit_;
+  std::size_t count_ = 0;
+  std::int64_t oldest_ns_ = 0;
+  std::array<can::Frame, greatest_frames_per_tick> frames_{};
+};
 
 // The measured fields of the timing frame: maxima since the last one that was sent.
 class TimingWindow {
  public:
   void take_lateness(std::int64_t ns) { lateness_us_ = std::max(lateness_us_, ns / 1000); }
   void take_execution(std::int64_t ns) { execution_us_ = std::max(execution_us_, ns / 1000); }
+  void take_latency(std::int64_t ns) { latency_us_ = std::max(latency_us_, ns / 1000); }
 
   [[nodiscard]] can::Timing frame(std::uint64_t missed) const {
-    constexpr std::int64_t greatest = can::not_available - 1;
-    return {.lateness_max_us = static_cast<std::int32_t>(std::min(lateness_us_, greatest)),
-            .execution_max_us = static_cast<std::int32_t>(std::min(execution_us_, greatest)),
-            .overruns = static_cast<std::int32_t>(std::min<std::uint64_t>(missed, greatest))};
+    return {.lateness_max_us = field(lateness_us_),
+            .execution_max_us = field(execution_us_),
+            .overruns = field(static_cast<std::int64_t>(missed)),
+            .latency_max_us = field(latency_us_)};
   }
 
   void restart_if_sent(const core::Outputs& outputs) {
@@ -50,67 +63,97 @@ class TimingWindow {
   }
 
  private:
+  static std::int32_t field(std::int64_t value) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, 0, can::not_available - 1));
+  }
+
   std::int64_t lateness_us_ = 0;
   std::int64_t execution_us_ = 0;
+  std::int64_t latency_us_ = 0;
 };
 
-class OverrunLimit {
+class RealTimeLoop {
  public:
-  explicit OverrunLimit(std::uint32_t limit) : limit_(limit) {}
+  RealTimeLoop(FrameBus& bus, LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing)
+      : bus_(bus),
+        clock_(clock),
+        timing_(timing),
+        frames_(options.frames_per_tick),
+        limit_(options.overrun_limit) {}
 
-  bool exceeded_by(const PeriodicClock::Wake& wake) {
-    if (wake.tick - window_start_ >= overrun_window_ticks) {
-      window_start_ = wake.tick;
-      missed_ = 0;
-    }
-    missed_ += wake.missed;
-    return missed_ > limit_;
+  [[nodiscard]] can::Fault fault() const { return controller_.fault(); }
+
+  void tick(const PeriodicClock::Wake& wake) {
+    const std::int64_t start_ns = clock_.now_ns();
+    note_wake(wake);
+    frames_.take(bus_);
+    controller_.step(
+        {.tick = wake.tick, .frames = frames_.frames(), .timing = window_.frame(timing_.missed_periods)},
+        outputs_);
+    window_.restart_if_sent(outputs_);
+    enter_port_faults(wake);
+    timing_.dropped_frames += send_all(bus_, outputs_);
+    note_end(wake.tick, start_ns, clock_.now_ns());
+  }
+
+  void stop() {
+    controller_.disarm(outputs_);
+    timing_.dropped_frames += send_all(bus_, outputs_);
   }
 
  private:
-  std::uint32_t limit_;
-  std::uint32_t window_start_ = 0;
-  std::uint32_t missed_ = 0;
+  void note_wake(const PeriodicClock::Wake& wake) {
+    ++timing_.ticks;
+    timing_.missed_periods += wake.missed;
+    timing_.longest_stall_periods = std::max(timing_.longest_stall_periods, wake.missed);
+    timing_.lateness.add(wake.lateness_ns, wake.tick);
+    window_.take_lateness(wake.lateness_ns);
+  }
+
+  // Once a fault: while it is latched, the controller reports it by itself.
+  void enter_port_faults(const PeriodicClock::Wake& wake) {
+    const bool overrun = limit_.exceeded_by(wake.tick, wake.missed);
+    const bool bus_off = bus_.take_bus_off();
+    if ((overrun || bus_off) && controller_.state() != can::State::fault) {
+      controller_.enter_fault(overrun ? can::Fault::overrun : can::Fault::bus_off, outputs_);
+    }
+    timing_.fault = controller_.fault() != can::Fault::none ? controller_.fault() : timing_.fault;
+  }
+
+  void note_end(std::uint32_t tick, std::int64_t start_ns, std::int64_t end_ns) {
+    timing_.received_frames += frames_.frames().size();
+    timing_.full_ticks += frames_.full() ? 1 : 0;
+    timing_.execution.add(end_ns - start_ns, tick);
+    window_.take_execution(end_ns - start_ns);
+    if (!frames_.frames().empty()) {
+      timing_.latency.add(end_ns - frames_.oldest_ns(), tick);
+      window_.take_latency(end_ns - frames_.oldest_ns());
+    }
+  }
+
+  FrameBus& bus_;
+  LoopClock& clock_;
+  LoopTiming& timing_;
+  core::Controller controller_;
+  core::Outputs outputs_;
+  TickFrames frames_;
+  TimingWindow window_;
+  OverrunLimit limit_;
 };
 
 }  // namespace
 
-RealTimeReport run_real_time(CanSocket& socket, std::uint32_t overrun_limit) {
-  RealTimeReport report;
-  core::Controller controller;
-  core::Outputs outputs;
-  std::array<can::Frame, frames_per_tick> storage{};
-  TimingWindow timing;
-  OverrunLimit overruns(overrun_limit);
-  FaultAnnouncer announcer;
-  PeriodicClock clock;
-  while (!stop_requested()) {
-    const PeriodicClock::Wake wake = clock.wait();
-    ++report.ticks;
-    report.missed_periods += wake.missed;
-    report.lateness_max_ns = std::max(report.lateness_max_ns, wake.lateness_ns);
-    report.lateness_sum_ns += wake.lateness_ns;
-    timing.take_lateness(wake.lateness_ns);
-
-    const std::int64_t start_ns = monotonic_ns();
-    const auto frames = take_frames(socket, storage);
-    controller.step({.tick = wake.tick, .frames = frames, .timing = timing.frame(report.missed_periods)},
-                    outputs);
-    timing.restart_if_sent(outputs);
-    if (overruns.exceeded_by(wake)) {
-      controller.enter_fault(can::Fault::overrun, outputs);
-    } else if (socket.take_bus_off()) {
-      controller.enter_fault(can::Fault::bus_off, outputs);
-    }
-    report.dropped_frames += send_all(socket, outputs);
-    const std::int64_t execution_ns = monotonic_ns() - start_ns;
-    timing.take_execution(execution_ns);
-    report.execution_max_ns = std::max(report.execution_max_ns, execution_ns);
-    announcer.announce(controller);
+void run_real_time(FrameBus& bus, LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing,
+                   std::atomic<can::Fault>& fault) {
+  RealTimeLoop loop(bus, clock, options, timing);
+  PeriodicClock deadlines(clock, options.period_ns);
+  const ResourceUse before = thread_resource_use();
+  while (!stop_requested() && (options.ticks == 0 || timing.ticks < options.ticks)) {
+    loop.tick(deadlines.wait());
+    fault.store(loop.fault(), std::memory_order_relaxed);
   }
-  controller.disarm(outputs);
-  report.dropped_frames += send_all(socket, outputs);
-  return report;
+  timing.resources = thread_resource_use() - before;
+  loop.stop();
 }
 
 }  // namespace striker::linux_port
