@@ -221,6 +221,23 @@ class Vcan(unittest.TestCase):
             if identifier == WHEEL_COMMAND and moves(payload):
                 self.assertIn(state, (STANDBY, ACTIVE), f"moved in fault at {stamp} ms: {told}")
 
+    def test_the_loop_calls_the_kernel_for_nothing_but_what_is_listed(self):
+        trace = self.file("trace")
+        result = subprocess.run(["strace", "-f", "-qq", "-o", trace, os.path.join(BIN, "striker-firmware"), "--can",
+                                 "vcan0", "--clock", "realtime", "--ticks", "100", "--overrun-limit", "1000"],
+                                capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(trace, encoding="utf-8", errors="replace") as stream:
+            lines = stream.readlines()
+        main = lines[0].split()[0]
+        calls = [match[1] for match in (re.match(main + r" +(\w+)\(", line) for line in lines) if match]
+        first = calls.index("clock_nanosleep")
+        last = len(calls) - 1 - calls[::-1].index("clock_nanosleep")
+        inside = calls[first:last]
+        self.assertEqual(set(inside), {"clock_nanosleep", "recvmmsg", "sendmmsg"} | ({"clock_gettime"} & set(inside)))
+        for call in ("clock_nanosleep", "recvmmsg", "sendmmsg"):
+            self.assertEqual(inside.count(call), 99)
+
     def test_a_stopped_firmware_leaves_torque_zero(self):
         process = firmware()
         simulator = program("striker-sil", "kick", "--episodes", "50", "--bus", "can:vcan0", "--answer-timeout", "200")

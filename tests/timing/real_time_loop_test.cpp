@@ -68,11 +68,11 @@ class Loop {
   struct Recorder final : public FrameBus {
     InProcessBus bus;
     std::vector<can::Frame> sent;
-    bool send(const can::Frame& frame) override {
-      sent.push_back(frame);
-      return bus.send(frame);
+    std::size_t send(std::span<const can::Frame> frames) override {
+      sent.insert(sent.end(), frames.begin(), frames.end());
+      return bus.send(frames);
     }
-    std::optional<StampedFrame> receive_stamped() override { return bus.receive_stamped(); }
+    std::size_t receive(std::span<StampedFrame> frames) override { return bus.receive(frames); }
     bool take_bus_off() override { return false; }
   };
 

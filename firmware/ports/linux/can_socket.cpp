@@ -9,10 +9,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <stdexcept>
 #include <vector>
 
@@ -27,28 +25,6 @@ std::string error_text() {
 std::string how_to_create(const std::string& interface) {
   return "create it with 'ip link add dev " + interface + " type vcan && ip link set up " + interface +
          "', or run under tools/with-vcan";
-}
-
-std::int64_t to_ns(const timespec& time) {
-  return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
-}
-
-std::int64_t now_ns(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return to_ns(now);
-}
-
-// How long ago the kernel received it. The kernel's stamps are CLOCK_REALTIME.
-std::int64_t age_ns(msghdr& message) {
-  for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
-    if (part->cmsg_level == SOL_SOCKET && part->cmsg_type == SCM_TIMESTAMPNS) {
-      timespec stamp{};
-      std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
-      return now_ns(CLOCK_REALTIME) - to_ns(stamp);
-    }
-  }
-  return 0;
 }
 
 std::vector<can_filter> filters_for(std::span<const std::uint16_t> identifiers) {
@@ -108,11 +84,16 @@ CanSocket::~CanSocket() {
   close(socket_);
 }
 
-bool CanSocket::send(const can::Frame& frame) {
+can_frame to_wire(const can::Frame& frame) {
   can_frame wire{};
   wire.can_id = frame.id;
   wire.len = frame.length;
   std::copy_n(frame.data.begin(), frame.length, wire.data);
+  return wire;
+}
+
+bool CanSocket::send(const can::Frame& frame) {
+  const can_frame wire = to_wire(frame);
   if (write(socket_, &wire, sizeof wire) == static_cast<ssize_t>(sizeof wire)) {
     return true;
   }
@@ -124,7 +105,6 @@ bool CanSocket::send(const can::Frame& frame) {
   return false;
 }
 
-// The frame, or nothing if it is an error frame.
 std::optional<can::Frame> CanSocket::accept(const can_frame& wire) {
   if ((wire.can_id & CAN_ERR_FLAG) != 0) {
     bus_off_ = bus_off_ || (wire.can_id & CAN_ERR_BUSOFF) != 0;
@@ -143,32 +123,6 @@ std::optional<can::Frame> CanSocket::receive() {
     }
   }
   return std::nullopt;
-}
-
-void CanSocket::stamp_frames() {
-  const int on = 1;
-  if (setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on) != 0) {
-    fail("cannot stamp frames (" + error_text() + ")");
-  }
-}
-
-std::optional<StampedFrame> CanSocket::receive_stamped() {
-  can_frame wire{};
-  iovec part{&wire, sizeof wire};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec))> control{};
-  while (true) {
-    msghdr message{};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = control.data();
-    message.msg_controllen = control.size();
-    if (recvmsg(socket_, &message, 0) != static_cast<ssize_t>(sizeof wire)) {
-      return std::nullopt;
-    }
-    if (const auto frame = accept(wire)) {
-      return StampedFrame{*frame, now_ns(CLOCK_MONOTONIC) - age_ns(message)};
-    }
-  }
 }
 
 bool CanSocket::wait(std::chrono::microseconds timeout) {

@@ -13,38 +13,40 @@
 #include <span>
 #include <string>
 
-#include "ports/linux/frame_bus.hpp"
+#include "can/frame.hpp"
 
 namespace striker::linux_port {
 
-class CanSocket final : public FrameBus {
+[[nodiscard]] can_frame to_wire(const can::Frame& frame);
+
+class CanSocket {
  public:
   // Receives data frames with these identifiers only, and the bus's error frames.
   CanSocket(const std::string& interface, std::span<const std::uint16_t> identifiers);
-  ~CanSocket() override;
+  ~CanSocket();
   CanSocket(const CanSocket&) = delete;
   CanSocket& operator=(const CanSocket&) = delete;
 
   // False if the frame was dropped: the interface's queue is full or the bus is off. An interface that has
   // gone throws.
-  bool send(const can::Frame& frame) override;
+  bool send(const can::Frame& frame);
 
   // The next frame that waits, or nothing. Error frames are taken note of, not returned.
   std::optional<can::Frame> receive();
-
-  // The same with the kernel's time of reception, once `stamp_frames` was called; before, with the present.
-  void stamp_frames();
-  std::optional<StampedFrame> receive_stamped() override;
 
   // True when something can be received; false at the timeout or at a signal.
   bool wait(std::chrono::microseconds timeout);
 
   // True if an error frame has reported bus-off since the last call.
-  bool take_bus_off() override;
+  bool take_bus_off();
+
+  // For other calls on this socket: its file descriptor, and what came as a frame, or nothing for an error
+  // frame, which is taken note of.
+  [[nodiscard]] int handle() const { return socket_; }
+  std::optional<can::Frame> accept(const can_frame& wire);
 
  private:
   [[noreturn]] void fail(const std::string& what) const;
-  std::optional<can::Frame> accept(const can_frame& wire);
 
   std::string interface_;
   int socket_ = -1;

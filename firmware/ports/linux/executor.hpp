@@ -9,6 +9,7 @@
 
 #include "can/messages.hpp"
 #include "ports/linux/can_socket.hpp"
+#include "ports/linux/frame_bus.hpp"
 #include "ports/linux/loop_timing.hpp"
 #include "ports/linux/periodic_clock.hpp"
 
@@ -35,14 +36,12 @@ struct RealTimeOptions {
   std::uint64_t ticks = 0;             // stops after these; 0: a stop signal alone stops
 };
 
-inline constexpr std::uint32_t greatest_frames_per_tick = 1024;
-
 // The hard real-time loop. A tick waits for its absolute deadline, receives at most `frames_per_tick` frames
 // (more wait for the next), steps, sends, and measures. Between the first deadline and the last it allocates
 // nothing, takes no lock, and calls the kernel for nothing but
 //
-//   clock_nanosleep   once a tick
-//   recvmsg, write    on a CAN socket: for every frame received and once more; for every frame sent
+//   clock_nanosleep      once a tick
+//   recvmmsg, sendmmsg   once a tick on a CAN socket; sendmmsg once more for every frame that is dropped
 //
 // (and clock_gettime, where the machine has no vDSO for it). Overruns: a wake-up that is late by whole
 // periods skips them; they are counted, never run in a burst, and the deadlines stay on their grid. More than

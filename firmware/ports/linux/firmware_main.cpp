@@ -14,6 +14,7 @@
 #include "ports/linux/executor.hpp"
 #include "ports/linux/outbox.hpp"
 #include "ports/linux/real_time.hpp"
+#include "ports/linux/real_time_socket.hpp"
 #include "ports/linux/stop_signal.hpp"
 
 namespace {
@@ -155,14 +156,13 @@ void run_on_sync(const Options& options) {
 void run_on_own_clock(Options options) {
   options.loop.period_ns = options.period_us * 1000;
   const RealTimeSettings settings = settings_of(options);
-  std::optional<CanSocket> socket;
+  std::optional<RealTimeSocket> socket;
   InProcessBus in_process;
   std::optional<Bench> bench;
   if (options.in_process) {
     bench.emplace(in_process, settings);
   } else {
     socket.emplace(options.can, controller_receives);
-    socket->stamp_frames();
   }
   std::atomic<can::Fault> fault = can::Fault::none;
   FaultAnnouncer announcer;

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <optional>
 
 #include "ports/linux/frame_bus.hpp"
 
@@ -42,8 +43,26 @@ class FrameRing {
 // The controller's end is the FrameBus; the other end has functions of its own.
 class InProcessBus final : public FrameBus {
  public:
-  bool send(const can::Frame& frame) override { return from_controller_.push({frame, 0}); }
-  std::optional<StampedFrame> receive_stamped() override { return to_controller_.pop(); }
+  std::size_t send(std::span<const can::Frame> frames) override {
+    std::size_t dropped = 0;
+    for (const can::Frame& frame : frames) {
+      dropped += from_controller_.push({frame, 0}) ? 0 : 1;
+    }
+    return dropped;
+  }
+
+  std::size_t receive(std::span<StampedFrame> frames) override {
+    std::size_t count = 0;
+    while (count < frames.size()) {
+      const auto frame = to_controller_.pop();
+      if (!frame) {
+        break;
+      }
+      frames[count++] = *frame;
+    }
+    return count;
+  }
+
   bool take_bus_off() override { return false; }
 
   bool send_to_controller(const can::Frame& frame, std::int64_t now_ns) {

@@ -1,4 +1,4 @@
-// What both executors do with the controller's answer: send its frames, and tell a changed fault on stderr.
+// What executors do with the controller's answer: send its frames, and tell a changed fault on stderr.
 #pragma once
 
 #include <fmt/core.h>
@@ -6,15 +6,15 @@
 #include <cstdint>
 
 #include "core/controller.hpp"
-#include "ports/linux/frame_bus.hpp"
+#include "ports/linux/can_socket.hpp"
 
 namespace striker::linux_port {
 
-// The number of frames that the bus did not take.
-inline std::uint64_t send_all(FrameBus& bus, const core::Outputs& outputs) {
+// The number of frames that the socket did not take.
+inline std::uint64_t send_all(CanSocket& socket, const core::Outputs& outputs) {
   std::uint64_t dropped = 0;
   for (const can::Frame& frame : outputs.frames()) {
-    dropped += bus.send(frame) ? 0 : 1;
+    dropped += socket.send(frame) ? 0 : 1;
   }
   return dropped;
 }

@@ -73,10 +73,15 @@ bool set_deadline(std::int64_t runtime_ns, std::int64_t period_ns) {
 }
 
 // The request holds as long as the file is open (Documentation/power/pm_qos_interface.rst).
-bool forbid_deep_sleep() {
+void forbid_deep_sleep(Asked& asked) {
   const int file = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
+  if (file < 0 && errno == ENOENT) {
+    asked.note(true, "no /dev/cpu_dma_latency in this kernel: it does not say how deep it sleeps");
+    return;
+  }
   const std::int32_t greatest_us = 0;
-  return file >= 0 && write(file, &greatest_us, sizeof greatest_us) == sizeof greatest_us;
+  const bool granted = file >= 0 && write(file, &greatest_us, sizeof greatest_us) == sizeof greatest_us;
+  asked.note(granted, "no deep sleep (/dev/cpu_dma_latency 0)");
 }
 
 }  // namespace
@@ -99,7 +104,7 @@ Granted ask_for_real_time(const RealTimeSettings& settings) {
   asked.note(mlockall(MCL_CURRENT | MCL_FUTURE) == 0, "locked memory");
   touch_stack();
   asked.note(true, fmt::format("{} KiB of stack touched", touched_stack_bytes / 1024));
-  asked.note(forbid_deep_sleep(), "no deep sleep (/dev/cpu_dma_latency 0)");
+  forbid_deep_sleep(asked);
   return asked.result();
 }
 

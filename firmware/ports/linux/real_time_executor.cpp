@@ -4,7 +4,6 @@
 
 #include "core/controller.hpp"
 #include "ports/linux/executor.hpp"
-#include "ports/linux/outbox.hpp"
 #include "ports/linux/overrun_limit.hpp"
 #include "ports/linux/stop_signal.hpp"
 
@@ -18,25 +17,21 @@ class TickFrames {
   explicit TickFrames(std::uint32_t limit) : limit_(std::min(limit, greatest_frames_per_tick)) {}
 
   void take(FrameBus& bus) {
-    count_ = 0;
-    while (count_ < limit_) {
-      const auto received = bus.receive_stamped();
-      if (!received) {
-        return;
-      }
-      oldest_ns_ = count_ == 0 ? received->received_ns : std::min(oldest_ns_, received->received_ns);
-      frames_[count_++] = received->frame;
+    count_ = bus.receive(std::span(stamped_).first(limit_));
+    for (std::size_t i = 0; i < count_; ++i) {
+      frames_[i] = stamped_[i].frame;
     }
   }
 
   [[nodiscard]] std::span<const can::Frame> frames() const { return std::span(frames_).first(count_); }
   [[nodiscard]] bool full() const { return count_ == limit_; }
-  [[nodiscard]] std::int64_t oldest_ns() const { return oldest_ns_; }
+  // Of those that were taken.
+  [[nodiscard]] std::int64_t oldest_ns() const { return stamped_.front().received_ns; }
 
  private:
   std::size_t limit_;
   std::size_t count_ = 0;
-  std::int64_t oldest_ns_ = 0;
+  std::array<StampedFrame, greatest_frames_per_tick> stamped_{};
   std::array<can::Frame, greatest_frames_per_tick> frames_{};
 };
 
@@ -78,6 +73,7 @@ class RealTimeLoop {
       : bus_(bus),
         clock_(clock),
         timing_(timing),
+        begin_ns_(clock.now_ns()),
         frames_(options.frames_per_tick),
         limit_(options.overrun_limit) {}
 
@@ -92,13 +88,13 @@ class RealTimeLoop {
         outputs_);
     window_.restart_if_sent(outputs_);
     enter_port_faults(wake);
-    timing_.dropped_frames += send_all(bus_, outputs_);
+    timing_.dropped_frames += bus_.send(outputs_.frames());
     note_end(wake.tick, start_ns, clock_.now_ns());
   }
 
   void stop() {
     controller_.disarm(outputs_);
-    timing_.dropped_frames += send_all(bus_, outputs_);
+    timing_.dropped_frames += bus_.send(outputs_.frames());
   }
 
  private:
@@ -125,7 +121,7 @@ class RealTimeLoop {
     timing_.full_ticks += frames_.full() ? 1 : 0;
     timing_.execution.add(end_ns - start_ns, tick);
     window_.take_execution(end_ns - start_ns);
-    if (!frames_.frames().empty()) {
+    if (!frames_.frames().empty() && frames_.oldest_ns() >= begin_ns_) {
       timing_.latency.add(end_ns - frames_.oldest_ns(), tick);
       window_.take_latency(end_ns - frames_.oldest_ns());
     }
@@ -134,6 +130,7 @@ class RealTimeLoop {
   FrameBus& bus_;
   LoopClock& clock_;
   LoopTiming& timing_;
+  std::int64_t begin_ns_;  // frames from before say nothing about the latency
   core::Controller controller_;
   core::Outputs outputs_;
   TickFrames frames_;

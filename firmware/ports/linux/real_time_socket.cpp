@@ -1,0 +1,100 @@
+#include "ports/linux/real_time_socket.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+namespace striker::linux_port {
+
+namespace {
+
+constexpr std::uint32_t calendar_ticks = 1000;
+
+std::int64_t to_ns(const timespec& time) {
+  return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
+}
+
+std::int64_t now_ns(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return to_ns(now);
+}
+
+// When the kernel received it, by CLOCK_REALTIME; 0 without a stamp.
+std::int64_t stamp_ns(msghdr& message) {
+  for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
+    if (part->cmsg_level == SOL_SOCKET && part->cmsg_type == SCM_TIMESTAMPNS) {
+      timespec stamp{};
+      std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+      return to_ns(stamp);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+RealTimeSocket::RealTimeSocket(const std::string& interface, std::span<const std::uint16_t> identifiers)
+    : socket_(interface, identifiers) {
+  const int on = 1;
+  setsockopt(socket_.handle(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    slots_[i].part = {&slots_[i].wire, sizeof slots_[i].wire};
+    messages_[i].msg_hdr.msg_iov = &slots_[i].part;
+    messages_[i].msg_hdr.msg_iovlen = 1;
+  }
+}
+
+std::size_t RealTimeSocket::send(std::span<const can::Frame> frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    slots_[i].wire = to_wire(frames[i]);
+    messages_[i].msg_hdr.msg_control = nullptr;
+    messages_[i].msg_hdr.msg_controllen = 0;
+  }
+  std::size_t dropped = 0;
+  for (std::size_t begin = 0; begin < frames.size();) {
+    const int sent =
+        sendmmsg(socket_.handle(), &messages_[begin], static_cast<unsigned>(frames.size() - begin), 0);
+    if (sent > 0) {
+      begin += static_cast<std::size_t>(sent);
+      continue;
+    }
+    gone_ = gone_ || errno == ENODEV || errno == ENXIO || errno == ENETDOWN;
+    ++dropped;
+    ++begin;
+  }
+  return dropped;
+}
+
+void RealTimeSocket::read_calendar() {
+  if (receptions_++ % calendar_ticks == 0) {
+    calendar_ns_ = now_ns(CLOCK_REALTIME) - now_ns(CLOCK_MONOTONIC);
+  }
+}
+
+std::size_t RealTimeSocket::receive(std::span<StampedFrame> frames) {
+  read_calendar();
+  const std::size_t wanted = std::min(frames.size(), slots_.size());
+  for (std::size_t i = 0; i < wanted; ++i) {
+    messages_[i].msg_hdr.msg_control = slots_[i].control.data();
+    messages_[i].msg_hdr.msg_controllen = slots_[i].control.size();
+  }
+  const int received =
+      recvmmsg(socket_.handle(), messages_.data(), static_cast<unsigned>(wanted), MSG_DONTWAIT, nullptr);
+  std::size_t count = 0;
+  for (std::size_t i = 0; received > 0 && i < static_cast<std::size_t>(received); ++i) {
+    if (const auto frame = socket_.accept(slots_[i].wire)) {
+      frames[count++] = {*frame, stamp_ns(messages_[i].msg_hdr) - calendar_ns_};
+    }
+  }
+  return count;
+}
+
+bool RealTimeSocket::take_bus_off() {
+  const bool gone = gone_;
+  gone_ = false;
+  return socket_.take_bus_off() || gone;
+}
+
+}  // namespace striker::linux_port
