@@ -1,51 +1,176 @@
-// The test and measuring image, for QEMU with semihosting and `-icount shift=0`: golden vectors, a recorded
-// sequence of steps, and instruction counts.
+// The measuring image, for QEMU with semihosting and `-icount shift=0`: instructions of the network and of `step`.
+//
+//   striker-bench [inputs N] [recording FILE] [search N] [seed N]
+//
+// Prints "name number" lines for tools/bench-kernel. Every count is exact, from the first instruction of the
+// counted function to its return, but those of the search, which are exact to a count of the timer.
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <numeric>
+#include <type_traits>
 
 #include "core/network.hpp"
+#include "golden/synthetic_policy.hpp"
+#include "ports/bare_metal/console.hpp"
 #include "ports/bare_metal/instruction_counter.hpp"
 #include "ports/bare_metal/memory.hpp"
-#include "ports/bare_metal/semihosting.hpp"
+#include "ports/bare_metal/replay.hpp"
+#include "ports/bare_metal/step_search.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {
-using namespace striker;
-using namespace striker::bare_metal;
-constexpr const auto& trained = policy::trained;
-using Raw = std::array<std::int32_t, trained.inputs>;
 
-[[gnu::noinline]] void nothing(const Raw&) {
-  asm volatile("");
-}
-[[gnu::noinline]] void inference(const Raw& raw) {
-  auto q = core::infer<trained>(raw);
-  asm volatile("" ::"r"(&q) : "memory");
-}
-template <void (*F)(const Raw&)>
-[[gnu::noinline]] std::uint32_t timed(const Raw& raw, std::uint32_t repetitions) {
-  restart_counter();
-  for (std::uint32_t i = 0; i < repetitions; ++i) F(raw);
-  return counted();
-}
-}  // namespace
-int main() {
-  using namespace semihosting;
-  int bad = 0;
-  for (auto& g : trained.golden_vectors) {
-    auto q = core::infer<trained>(g.raw);
-    bad += q.sums != g.sums || q.action != g.action;
+using namespace striker;
+using namespace striker::core;
+
+constexpr const auto& trained = policy::trained;
+using Shape = std::remove_cvref_t<decltype(trained)>;
+using Raw = std::array<std::int32_t, Shape::inputs>;
+using Answer = QValues<Shape::actions>;
+
+struct Range {
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t greatest = 0;
+  void add(std::uint32_t value) {
+    least = value < least ? value : least;
+    greatest = value > greatest ? value : greatest;
   }
-  print_line("bad", bad);
-  const auto u = counter_unit();
-  const Raw raw = trained.golden_vectors[3].raw;
-  auto t400 = timed<inference>(raw, 400), t0 = timed<inference>(raw, 0), n400 = timed<nothing>(raw, 400),
-       n0 = timed<nothing>(raw, 0);
-  print_line("t", t400);
-  print_line("t0", t0);
-  print_line("n", n400);
-  print_line("n0", n0);
-  print_line("x100", ((std::int64_t)(t400 - t0) - (n400 - n0)) * u.instructions * 100 / 400 / u.counts);
-  print_line("stack", stack_high_water_bytes());
-  semihosting::exit(0);
+};
+
+// Repetitions, at least 40, after which one instruction more is a whole number of counts more.
+std::uint32_t exact_repetitions() {
+  const auto [instructions, counts] = bare_metal::counter_unit();
+  const std::uint32_t whole = instructions / std::gcd(instructions, counts);
+  return whole >= 40 ? whole : 40;
+}
+
+std::uint32_t instructions(std::uint32_t counts, std::uint32_t repetitions) {
+  const auto unit = bare_metal::counter_unit();
+  return static_cast<std::uint32_t>((std::uint64_t{counts} * unit.instructions + unit.counts * repetitions / 2) /
+                                    (std::uint64_t{unit.counts} * repetitions));
+}
+
+// Takes as many instructions to call as the network does, and itself one: the return.
+[[gnu::noipa, gnu::naked]] Answer return_at_once(const Raw&) {
+  asm volatile("bx lr");
+}
+
+template <Answer (*function)(const Raw&)>
+[[gnu::noinline]] std::uint32_t count(const Raw& raw, std::uint32_t repetitions) {
+  bare_metal::restart_counter();
+  for (std::uint32_t i = 0; i < repetitions; ++i) {
+    const Answer answer = function(raw);
+    asm volatile("" : : "r"(&answer) : "memory");
+  }
+  return bare_metal::counted();
+}
+
+// What repetitions cost, without what is around them: two runs' difference.
+template <Answer (*function)(const Raw&)>
+std::uint32_t counts_of(const Raw& raw, std::uint32_t repetitions) {
+  const std::uint32_t once = count<function>(raw, repetitions);
+  return count<function>(raw, 2 * repetitions) - once;
+}
+
+void count_inference(std::uint32_t inputs) {
+  const std::uint32_t repetitions = exact_repetitions();
+  SmallRandom random(1);
+  const std::uint32_t call = counts_of<return_at_once>(Raw{}, repetitions);
+  const std::uint32_t base = counts_of<infer<trained>>(Raw{}, repetitions) - call;
+  Range counts;
+  for (std::uint32_t i = 0; i < inputs; ++i) {
+    Raw raw{};
+    if (i < Shape::goldens) {
+      raw = trained.golden_vectors[i].raw;
+    } else {
+      for (std::int32_t& element : raw) {
+        element = draw_raw(random);
+      }
+    }
+    counts.add(count<infer<trained>>(raw, repetitions));
+  }
+  const std::uint32_t first = count<infer<trained>>(Raw{}, repetitions);
+  const auto exact = [&](std::uint32_t counted) {
+    return instructions(base + counted - first, repetitions) + 1;
+  };
+  console::print_line("inference repetitions", repetitions);
+  console::print_line("inference inputs", inputs);
+  console::print_line("inference min", exact(counts.least));
+  console::print_line("inference max", exact(counts.greatest));
+}
+
+// A copy of the controller takes each repetition: copying is counted on its own, and taken off.
+[[gnu::noinline]] std::uint32_t count_steps(const Controller& before, const Inputs& inputs, Outputs& outputs,
+                                            std::uint32_t repetitions, bool steps) {
+  bare_metal::restart_counter();
+  for (std::uint32_t i = 0; i < repetitions; ++i) {
+    Controller controller = before;
+    asm volatile("" : : "r"(&controller) : "memory");
+    if (steps) {
+      controller.step(inputs, outputs);
+    }
+  }
+  return bare_metal::counted();
+}
+
+void count_recorded_steps(bare_metal::Recording& recording, std::uint32_t most_ticks) {
+  const std::uint32_t repetitions = exact_repetitions();
+  Controller controller;
+  Outputs outputs;
+  std::array<can::Frame, 32> frames{};
+  std::size_t frame_count = 0;
+  std::uint32_t tick = 0;
+  Range with_decision;
+  Range without;
+  bare_metal::RecordedFrame recorded;
+  while (tick < most_ticks && recording.next(recorded)) {
+    if (recorded.answer) {
+      continue;
+    }
+    if (!can::is<can::Sync>(recorded.frame)) {
+      frames[frame_count++] = recorded.frame;
+      continue;
+    }
+    const Inputs inputs{.tick = tick++, .frames = std::span(frames).first(frame_count)};
+    frame_count = 0;
+    const std::uint32_t copying = count_steps(controller, inputs, outputs, repetitions, false);
+    const std::uint32_t all = count_steps(controller, inputs, outputs, repetitions, true);
+    controller.step(inputs, outputs);
+    bool decided = false;
+    for (const can::Frame& frame : outputs.frames()) {
+      decided = decided || can::is<can::Decision>(frame);
+    }
+    (decided ? with_decision : without).add(instructions(all - copying, repetitions));
+  }
+  console::print_line("step ticks", tick);
+  console::print_line("step without decision min", without.least);
+  console::print_line("step without decision max", without.greatest);
+  console::print_line("step with decision min", with_decision.least);
+  console::print_line("step with decision max", with_decision.greatest);
+}
+
+}  // namespace
+
+int main() {
+  console::print("kernel ");
+  console::print(kernel::Chosen::name);
+  console::print("\n");
+  console::print_line("weight bytes", Packed<trained>::bytes);
+  console::print_line("controller bytes", sizeof(Controller));
+  if (const std::uint32_t inputs = console::argument("inputs", 0); inputs > 0) {
+    count_inference(inputs);
+  }
+  if (const char* name = console::word_argument("recording"); name != nullptr) {
+    bare_metal::Recording recording(name);
+    count_recorded_steps(recording, console::argument("ticks", 2'000));
+  }
+  if (const std::uint32_t steps = console::argument("search", 0); steps > 0) {
+    const bare_metal::SearchResult found = bare_metal::search_longest_step(steps, console::argument("seed", 1));
+    console::print_line("search steps", steps);
+    console::print_line("search decisions", found.decisions);
+    console::print_line("search max", found.greatest_instructions);
+  }
+  console::print_line("stack high water", bare_metal::stack_high_water_bytes());
+  console::exit(0);
 }

@@ -1,14 +1,15 @@
-#include "ports/bare_metal/semihosting.hpp"
+#include "ports/bare_metal/console.hpp"
 
 #include <array>
 #include <cstring>
 
-namespace striker::semihosting {
+namespace striker::console {
 
 namespace {
 
 enum class Operation : std::uint32_t {
   open = 0x01,
+  close = 0x02,
   write0 = 0x04,
   read = 0x06,
   get_command_line = 0x15,
@@ -28,16 +29,21 @@ std::int32_t call(Operation operation, const void* parameter) {
   return static_cast<std::int32_t>(r0);
 }
 
-const char* command_line() {
-  static std::array<char, 256> line;
+using Line = std::array<char, 256>;
+
+// The host's command line, with a terminator after every word.
+Line& command_line() {
+  static Line line;
   struct {
     char* text;
     std::uint32_t length;
-  } const block{line.data(), line.size() - 1};
-  if (line[0] == '\0') {
-    call(Operation::get_command_line, &block);
+  } const block{line.data(), line.size() - 2};
+  if (line[0] == '\0' && call(Operation::get_command_line, &block) == 0) {
+    for (char& letter : line) {
+      letter = letter == ' ' ? '\0' : letter;
+    }
   }
-  return line.data();
+  return line;
 }
 
 }  // namespace
@@ -67,15 +73,24 @@ void print_line(const char* name, std::int64_t number) {
   print("\n");
 }
 
+const char* word_argument(const char* name) {
+  const Line& line = command_line();
+  for (const char* word = line.data(); *word != '\0'; word += std::strlen(word) + 1) {
+    if (std::strcmp(word, name) == 0) {
+      return word + std::strlen(word) + 1;
+    }
+  }
+  return nullptr;
+}
+
 std::uint32_t argument(const char* name, std::uint32_t otherwise) {
-  const char* at = std::strstr(command_line(), name);
-  if (at == nullptr) {
+  const char* digit = word_argument(name);
+  if (digit == nullptr) {
     return otherwise;
   }
-  at += std::strlen(name);
   std::uint32_t number = 0;
-  for (at += *at == ' ' ? 1 : 0; *at >= '0' && *at <= '9'; ++at) {
-    number = number * 10 + static_cast<std::uint32_t>(*at - '0');
+  for (; *digit >= '0' && *digit <= '9'; ++digit) {
+    number = number * 10 + static_cast<std::uint32_t>(*digit - '0');
   }
   return number;
 }
@@ -87,6 +102,12 @@ File::File(const char* name) {
     std::uint32_t length;
   } const block{name, 1, std::strlen(name)};
   handle_ = call(Operation::open, &block);
+}
+
+File::~File() {
+  if (is_open()) {
+    call(Operation::close, &handle_);
+  }
 }
 
 bool File::read(std::span<std::uint8_t> bytes) {
@@ -108,4 +129,4 @@ void exit(int status) {
   }
 }
 
-}  // namespace striker::semihosting
+}  // namespace striker::console

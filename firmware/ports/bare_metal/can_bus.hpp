@@ -1,0 +1,17 @@
+// The seam to a board's CAN controller: a microcontroller with one of its own implements these two. The boards
+// that QEMU has bring none but serial ports: slcan_bus.cpp, which they use, speaks slcan over one.
+#pragma once
+
+#include "can/frame.hpp"
+
+namespace striker::bare_metal {
+
+void start_can();
+
+// Never waits. False if nothing has come.
+[[nodiscard]] bool receive_can(can::Frame& frame);
+
+// Waits until the frame is on its way.
+void send_can(const can::Frame& frame);
+
+}  // namespace striker::bare_metal

@@ -1,0 +1,40 @@
+// What a test image needs of the world outside: a text output, its command line, a file to read, an end.
+//
+// On targets this is Arm semihosting ("Semihosting for AArch32 and AArch64"): a debugger or QEMU does it, and
+// without one behind it the first call stops the processor. On the host it is the C library.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace striker::console {
+
+void print(const char* text);
+void print(std::int64_t number);
+void print_line(const char* name, std::int64_t number);  // "name number"
+
+// The word after `name` on the command line; it stays valid. Null without one.
+[[nodiscard]] const char* word_argument(const char* name);
+
+// The same as a number; `otherwise` without one.
+[[nodiscard]] std::uint32_t argument(const char* name, std::uint32_t otherwise);
+
+// A host file, read from front to back.
+class File {
+ public:
+  explicit File(const char* name);
+  ~File();
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  [[nodiscard]] bool is_open() const { return handle_ >= 0; }
+  // True if all of `bytes` was read.
+  [[nodiscard]] bool read(std::span<std::uint8_t> bytes);
+
+ private:
+  std::int32_t handle_;
+};
+
+[[noreturn]] void exit(int status);
+
+}  // namespace striker::console

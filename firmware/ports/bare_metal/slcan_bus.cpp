@@ -1,0 +1,33 @@
+#include "ports/bare_metal/can_bus.hpp"
+#include "ports/bare_metal/slcan.hpp"
+#include "ports/bare_metal/uart.hpp"
+
+namespace striker::bare_metal {
+
+namespace {
+
+SlcanReader reader;
+
+}  // namespace
+
+void start_can() {
+  uart::start();
+}
+
+bool receive_can(can::Frame& frame) {
+  while (uart::has_letter()) {
+    if (reader.take(uart::take_letter(), frame)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void send_can(const can::Frame& frame) {
+  const SlcanLine line = slcan_line(frame);
+  for (std::size_t i = 0; i < line.length; ++i) {
+    uart::put_letter(line.text[i]);
+  }
+}
+
+}  // namespace striker::bare_metal

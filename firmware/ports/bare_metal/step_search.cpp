@@ -1,0 +1,162 @@
+#include "ports/bare_metal/step_search.hpp"
+
+#include <array>
+#include <span>
+
+#include "core/controller.hpp"
+#include "golden/synthetic_policy.hpp"
+#include "ports/bare_metal/instruction_counter.hpp"
+
+namespace striker::bare_metal {
+
+namespace {
+
+using core::SmallRandom;
+
+// A controller and everything that sends to it.
+struct Scene {
+  core::Controller controller;
+  std::uint32_t tick = 0;
+  std::int32_t picture = 0;
+  can::SendCounter wheels, pose, ball, mode, stop;
+};
+
+struct Frames {
+  std::array<can::Frame, most_frames_a_tick> all{};
+  std::size_t count = 0;
+  void add(const can::Frame& frame) {
+    if (count < all.size()) {
+      all[count++] = frame;
+    }
+  }
+};
+
+bool one_in(SmallRandom& random, std::uint32_t chance) {
+  return random.bits() % chance == 0;
+}
+
+// Any position or speed, and often one at an end of its range.
+std::int32_t any_of(SmallRandom& random, std::int32_t limit) {
+  return one_in(random, 4) ? (one_in(random, 2) ? limit : -limit) : random.within(limit);
+}
+
+void add_wheels(Scene& scene, SmallRandom& random, Frames& frames) {
+  const std::int32_t limit = one_in(random, 64) ? 4000 : 2550;
+  frames.add(can::send(
+      can::WheelState{.left_mm_s = any_of(random, limit), .right_mm_s = any_of(random, limit)}, scene.wheels));
+}
+
+void add_picture(Scene& scene, SmallRandom& random, Frames& frames) {
+  scene.picture = (scene.picture + (one_in(random, 16) ? 5 : 1)) & 0xF;
+  frames.add(can::send(can::VisionPose{.frame = scene.picture,
+                                       .x_quarter_mm = any_of(random, 32767),
+                                       .y_quarter_mm = any_of(random, 32767),
+                                       .heading = any_of(random, 32767)},
+                       scene.pose));
+  frames.add(can::send(can::VisionBall{.frame = one_in(random, 16) ? scene.picture ^ 1 : scene.picture,
+                                       .x_quarter_mm = any_of(random, 32767),
+                                       .y_quarter_mm = any_of(random, 32767)},
+                       scene.ball));
+}
+
+void add_mode(Scene& scene, SmallRandom& random, Frames& frames) {
+  can::Mode mode = one_in(random, 8) ? can::Mode::disarm : can::Mode::clear;
+  if (scene.controller.state() == can::State::standby) {
+    mode = can::Mode::arm;
+  }
+  frames.add(can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, scene.mode));
+}
+
+// Wrong in length, checksum, counter or range, of a message or of none.
+void spoil(SmallRandom& random, can::Frame& frame) {
+  switch (random.bits() % 5) {
+    case 0:
+      frame.length = static_cast<std::uint8_t>(random.bits() % 9);
+      break;
+    case 1:
+      frame.data[random.bits() % 8] ^= static_cast<std::uint8_t>(1U << (random.bits() % 8));
+      break;
+    case 2:
+      frame.id = static_cast<std::uint16_t>(random.bits() & 0x7FFU);
+      break;
+    case 3:
+      frame.data[7] = 0xFF;
+      break;
+    default:
+      break;
+  }
+}
+
+Frames frames_of(Scene& scene, SmallRandom& random) {
+  Frames frames;
+  const std::uint32_t crowd = one_in(random, 16) ? 1 + random.bits() % most_frames_a_tick : 1;
+  for (std::uint32_t i = 0; i < crowd; ++i) {
+    if (!one_in(random, 256)) {
+      add_wheels(scene, random, frames);
+    }
+    if (scene.tick % 50 == 0 || one_in(random, 128)) {
+      add_picture(scene, random, frames);
+    }
+  }
+  const bool wants_mode = scene.controller.state() == can::State::standby
+                              ? scene.tick % 50 == 1
+                              : scene.controller.state() == can::State::fault;
+  if (wants_mode || one_in(random, 2048)) {
+    add_mode(scene, random, frames);
+  }
+  if (one_in(random, 4096)) {
+    frames.add(can::send(can::EmergencyStop{}, scene.stop));
+  }
+  if (one_in(random, 64)) {
+    for (can::Frame& frame : std::span(frames.all).first(frames.count)) {
+      spoil(random, frame);
+    }
+  }
+  return frames;
+}
+
+void let_time_pass(Scene& scene, SmallRandom& random) {
+  if (one_in(random, 512)) {
+    scene.tick += random.bits() % 200;
+  } else if (one_in(random, 512)) {
+    scene.tick += 1000 - scene.tick % 1000;
+  } else {
+    scene.tick += 1;
+  }
+}
+
+}  // namespace
+
+SearchResult search_longest_step(std::uint32_t steps, std::uint32_t seed) {
+  const CounterUnit unit = counter_unit();
+  SmallRandom random(seed);
+  SearchResult result;
+  Scene scene;
+  Scene longest = scene;
+  std::uint32_t longest_counts = 0;
+  core::Outputs outputs;
+  for (std::uint32_t i = 0; i < steps; ++i) {
+    if (one_in(random, 2000)) {
+      scene = one_in(random, 2) ? longest : Scene{};
+    }
+    const Scene before = scene;
+    const Frames frames = frames_of(scene, random);
+    const core::Inputs inputs{.tick = scene.tick, .frames = std::span(frames.all).first(frames.count)};
+    restart_counter();
+    scene.controller.step(inputs, outputs);
+    const std::uint32_t counts = counted() + 1;
+    if (counts >= longest_counts) {
+      longest_counts = counts;
+      longest = before;
+    }
+    for (const can::Frame& frame : outputs.frames()) {
+      result.decisions += static_cast<std::uint32_t>(can::is<can::Decision>(frame));
+    }
+    let_time_pass(scene, random);
+  }
+  result.greatest_instructions =
+      static_cast<std::uint32_t>((std::uint64_t{longest_counts} * unit.instructions + unit.counts - 1) / unit.counts);
+  return result;
+}
+
+}  // namespace striker::bare_metal
