@@ -1,6 +1,6 @@
 // The measuring image, for QEMU with semihosting and `-icount shift=0`: instructions of the network and of `step`.
 //
-//   striker-bench [inputs N] [recording FILE] [search N] [seed N]
+//   striker-bench [inputs N] [plain N] [recording FILE] [ticks N] [search N] [seed N]
 //
 // Prints "name number" lines for tools/bench-kernel. Every count is exact, from the first instruction of the
 // counted function to its return, but those of the search, which are exact to a count of the timer.
@@ -10,6 +10,7 @@
 #include <numeric>
 #include <type_traits>
 
+#include "core/kernel/portable.hpp"
 #include "core/network.hpp"
 #include "golden/synthetic_policy.hpp"
 #include "ports/bare_metal/console.hpp"
@@ -25,9 +26,13 @@ using namespace striker;
 using namespace striker::core;
 
 constexpr const auto& trained = policy::trained;
-using Shape = std::remove_cvref_t<decltype(trained)>;
-using Raw = std::array<std::int32_t, Shape::inputs>;
-using Answer = QValues<Shape::actions>;
+
+template <const auto& policy>
+using ShapeOf = std::remove_cvref_t<decltype(policy)>;
+template <const auto& policy>
+using Raw = std::array<std::int32_t, ShapeOf<policy>::inputs>;
+template <const auto& policy>
+using Answer = QValues<ShapeOf<policy>::actions>;
 
 struct Range {
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
@@ -51,53 +56,61 @@ std::uint32_t instructions(std::uint32_t counts, std::uint32_t repetitions) {
                                     (std::uint64_t{unit.counts} * repetitions));
 }
 
-// Takes as many instructions to call as the network does, and itself one: the return.
-[[gnu::noipa, gnu::naked]] Answer return_at_once(const Raw&) {
-  asm volatile("bx lr");
-}
+// Takes one instruction, and any arguments.
+extern "C" void return_at_once();
+asm(".text\n\t.thumb_func\n\t.type return_at_once, %function\nreturn_at_once:\n\tbx lr\n");
 
-template <Answer (*function)(const Raw&)>
-[[gnu::noinline]] std::uint32_t count(const Raw& raw, std::uint32_t repetitions) {
+template <const auto& policy>
+using Function = Answer<policy> (*)(const Raw<policy>&);
+
+// The same loop whatever it calls: that is not known when it is compiled.
+template <const auto& policy>
+[[gnu::noipa]] std::uint32_t count(Function<policy> function, const Raw<policy>& raw, std::uint32_t repetitions) {
   bare_metal::restart_counter();
   for (std::uint32_t i = 0; i < repetitions; ++i) {
-    const Answer answer = function(raw);
+    const Answer<policy> answer = function(raw);
     asm volatile("" : : "r"(&answer) : "memory");
   }
   return bare_metal::counted();
 }
 
 // What repetitions cost, without what is around them: two runs' difference.
-template <Answer (*function)(const Raw&)>
-std::uint32_t counts_of(const Raw& raw, std::uint32_t repetitions) {
-  const std::uint32_t once = count<function>(raw, repetitions);
-  return count<function>(raw, 2 * repetitions) - once;
+template <const auto& policy>
+std::uint32_t counts_of(Function<policy> function, std::uint32_t repetitions) {
+  const std::uint32_t once = count<policy>(function, {}, repetitions);
+  return count<policy>(function, {}, 2 * repetitions) - once;
 }
 
-void count_inference(std::uint32_t inputs) {
+template <const auto& policy, class Kernel = kernel::Chosen>
+Range count_inference(std::uint32_t inputs) {
   const std::uint32_t repetitions = exact_repetitions();
+  const Function<policy> network = infer<policy, Kernel>;
   SmallRandom random(1);
-  const std::uint32_t call = counts_of<return_at_once>(Raw{}, repetitions);
-  const std::uint32_t base = counts_of<infer<trained>>(Raw{}, repetitions) - call;
-  Range counts;
+  const std::uint32_t base =
+      counts_of<policy>(network, repetitions) - counts_of<policy>(reinterpret_cast<Function<policy>>(&return_at_once), repetitions);
+  const std::uint32_t first = count<policy>(network, {}, repetitions);
+  Range range;
   for (std::uint32_t i = 0; i < inputs; ++i) {
-    Raw raw{};
-    if (i < Shape::goldens) {
-      raw = trained.golden_vectors[i].raw;
+    Raw<policy> raw{};
+    if (i < ShapeOf<policy>::goldens) {
+      raw = policy.golden_vectors[i].raw;
     } else {
       for (std::int32_t& element : raw) {
         element = draw_raw(random);
       }
     }
-    counts.add(count<infer<trained>>(raw, repetitions));
+    range.add(instructions(base + count<policy>(network, raw, repetitions) - first, repetitions) + 1);
   }
-  const std::uint32_t first = count<infer<trained>>(Raw{}, repetitions);
-  const auto exact = [&](std::uint32_t counted) {
-    return instructions(base + counted - first, repetitions) + 1;
-  };
-  console::print_line("inference repetitions", repetitions);
-  console::print_line("inference inputs", inputs);
-  console::print_line("inference min", exact(counts.least));
-  console::print_line("inference max", exact(counts.greatest));
+  return range;
+}
+
+template <const auto& policy>
+void print_shape(const char* name) {
+  const Range range = count_inference<policy>(50);
+  console::print_line(name, range.least);
+  if (range.least != range.greatest) {
+    console::print_line("  but also", range.greatest);
+  }
 }
 
 // A copy of the controller takes each repetition: copying is counted on its own, and taken off.
@@ -121,6 +134,7 @@ void count_recorded_steps(bare_metal::Recording& recording, std::uint32_t most_t
   std::array<can::Frame, 32> frames{};
   std::size_t frame_count = 0;
   std::uint32_t tick = 0;
+  Range self_test;  // a golden vector each
   Range with_decision;
   Range without;
   bare_metal::RecordedFrame recorded;
@@ -136,14 +150,16 @@ void count_recorded_steps(bare_metal::Recording& recording, std::uint32_t most_t
     frame_count = 0;
     const std::uint32_t copying = count_steps(controller, inputs, outputs, repetitions, false);
     const std::uint32_t all = count_steps(controller, inputs, outputs, repetitions, true);
+    const bool boots = controller.state() == can::State::boot || controller.state() == can::State::self_test;
     controller.step(inputs, outputs);
     bool decided = false;
     for (const can::Frame& frame : outputs.frames()) {
       decided = decided || can::is<can::Decision>(frame);
     }
-    (decided ? with_decision : without).add(instructions(all - copying, repetitions));
+    (decided ? with_decision : boots ? self_test : without).add(instructions(all - copying, repetitions));
   }
   console::print_line("step ticks", tick);
+  console::print_line("step in self-test max", self_test.greatest);
   console::print_line("step without decision min", without.least);
   console::print_line("step without decision max", without.greatest);
   console::print_line("step with decision min", with_decision.least);
@@ -159,7 +175,19 @@ int main() {
   console::print_line("weight bytes", Packed<trained>::bytes);
   console::print_line("controller bytes", sizeof(Controller));
   if (const std::uint32_t inputs = console::argument("inputs", 0); inputs > 0) {
-    count_inference(inputs);
+    const Range range = count_inference<trained>(inputs);
+    console::print_line("inference inputs", inputs);
+    console::print_line("inference repetitions", exact_repetitions());
+    console::print_line("inference min", range.least);
+    console::print_line("inference max", range.greatest);
+    print_shape<synthetic_paper>("inference 6-64-64-3");
+    print_shape<synthetic_half>("inference 6-32-32-3");
+    print_shape<synthetic_wide>("inference 12-128-128-5");
+  }
+  if (const std::uint32_t inputs = console::argument("plain", 0); inputs > 0) {
+    const Range range = count_inference<trained, kernel::Portable>(inputs);
+    console::print_line("plain min", range.least);
+    console::print_line("plain max", range.greatest);
   }
   if (const char* name = console::word_argument("recording"); name != nullptr) {
     bare_metal::Recording recording(name);
