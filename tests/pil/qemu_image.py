@@ -45,7 +45,7 @@ def _start_r5(path, process):
     connection = socket.socket(socket.AF_UNIX)
     for _ in range(200):
         if process.poll() is not None:
-            raise ImageError(f"QEMU ended at once:\n{process.stdout.read()}")
+            raise ImageError(f"QEMU ended at once:\n{process.stderr.read()}")
         try:
             connection.connect(path)
             break
@@ -82,13 +82,13 @@ def run(cpu, image, words=(), timeout_s=600):
         control = os.path.join(folder, "qmp.sock")
         if cpu == "cortex-r5":
             line += ["-qmp", f"unix:{control},server=on,wait=off"]
-        with subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        with subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               text=True) as process:
             connection = None
             try:
                 if cpu == "cortex-r5":
                     connection = _start_r5(control, process)
-                output, _ = process.communicate(timeout=timeout_s)
+                output, complaints = process.communicate(timeout=timeout_s)
             except subprocess.TimeoutExpired as expired:
                 raise ImageError(f"{cpu}: no end within {timeout_s} s") from expired
             finally:
@@ -97,7 +97,7 @@ def run(cpu, image, words=(), timeout_s=600):
                 if connection is not None:
                     connection.close()
     if process.returncode != 0:
-        raise ImageError(f"{cpu}: {os.path.basename(image)} ended with status {process.returncode}:\n{output}")
+        raise ImageError(f"{cpu}: {os.path.basename(image)} ended with status {process.returncode}:\n{output}{complaints}")
     return output
 
 

@@ -125,6 +125,17 @@ def stack_usage(image, build_dir):
     return total, path
 
 
+def symbols(image):
+    text = subprocess.run(["arm-none-eabi-nm", image], check=True, capture_output=True, text=True).stdout
+    return {fields[2]: int(fields[0], 16) for fields in map(str.split, text.splitlines()) if len(fields) == 3}
+
+
+def stack_room(image):
+    """The stack that the image sets aside, in bytes."""
+    found = symbols(image)
+    return found["stack_top"] - found["stack_bottom"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("image", help="an .elf of firmware/ports")

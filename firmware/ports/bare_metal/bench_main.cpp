@@ -1,4 +1,5 @@
-// The measuring image, for QEMU with semihosting and `-icount shift=0`: instructions of the network and of `step`.
+// The measuring image, for QEMU with semihosting and `-icount shift=0`: instructions of the network and of
+// `step`.
 //
 //   striker-bench [inputs N] [plain N] [recording FILE] [ticks N] [search N] [seed N]
 //
@@ -52,8 +53,9 @@ std::uint32_t exact_repetitions() {
 
 std::uint32_t instructions(std::uint32_t counts, std::uint32_t repetitions) {
   const auto unit = bare_metal::counter_unit();
-  return static_cast<std::uint32_t>((std::uint64_t{counts} * unit.instructions + unit.counts * repetitions / 2) /
-                                    (std::uint64_t{unit.counts} * repetitions));
+  return static_cast<std::uint32_t>(
+      (std::uint64_t{counts} * unit.instructions + unit.counts * repetitions / 2) /
+      (std::uint64_t{unit.counts} * repetitions));
 }
 
 // Takes one instruction, and any arguments.
@@ -65,7 +67,8 @@ using Function = Answer<policy> (*)(const Raw<policy>&);
 
 // The same loop whatever it calls: that is not known when it is compiled.
 template <const auto& policy>
-[[gnu::noipa]] std::uint32_t count(Function<policy> function, const Raw<policy>& raw, std::uint32_t repetitions) {
+[[gnu::noipa]] std::uint32_t count(Function<policy> function, const Raw<policy>& raw,
+                                   std::uint32_t repetitions) {
   bare_metal::restart_counter();
   for (std::uint32_t i = 0; i < repetitions; ++i) {
     const Answer<policy> answer = function(raw);
@@ -87,7 +90,8 @@ Range count_inference(std::uint32_t inputs) {
   const Function<policy> network = infer<policy, Kernel>;
   SmallRandom random(1);
   const std::uint32_t base =
-      counts_of<policy>(network, repetitions) - counts_of<policy>(reinterpret_cast<Function<policy>>(&return_at_once), repetitions);
+      counts_of<policy>(network, repetitions) -
+      counts_of<policy>(reinterpret_cast<Function<policy>>(&return_at_once), repetitions);
   const std::uint32_t first = count<policy>(network, {}, repetitions);
   Range range;
   for (std::uint32_t i = 0; i < inputs; ++i) {
@@ -172,6 +176,10 @@ int main() {
   console::print("kernel ");
   console::print(kernel::Chosen::name);
   console::print("\n");
+  using Shape = ShapeOf<trained>;
+  console::print_line(
+      "multiply-accumulates",
+      Shape::inputs * Shape::hidden1 + Shape::hidden1 * Shape::hidden2 + Shape::hidden2 * Shape::actions);
   console::print_line("weight bytes", Packed<trained>::bytes);
   console::print_line("controller bytes", sizeof(Controller));
   if (const std::uint32_t inputs = console::argument("inputs", 0); inputs > 0) {
@@ -194,7 +202,8 @@ int main() {
     count_recorded_steps(recording, console::argument("ticks", 2'000));
   }
   if (const std::uint32_t steps = console::argument("search", 0); steps > 0) {
-    const bare_metal::SearchResult found = bare_metal::search_longest_step(steps, console::argument("seed", 1));
+    const bare_metal::SearchResult found =
+        bare_metal::search_longest_step(steps, console::argument("seed", 1));
     console::print_line("search steps", steps);
     console::print_line("search decisions", found.decisions);
     console::print_line("search max", found.greatest_instructions);

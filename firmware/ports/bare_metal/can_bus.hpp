@@ -1,5 +1,5 @@
-// The seam to a board's CAN controller: a microcontroller with one of its own implements these two. The boards
-// that QEMU has bring none but serial ports: slcan_bus.cpp, which they use, speaks slcan over one.
+// The seam to a board's CAN controller: a microcontroller with one of its own implements these two. The
+// boards that QEMU has bring none but serial ports: slcan_bus.cpp, which they use, speaks slcan over one.
 #pragma once
 
 #include "can/frame.hpp"

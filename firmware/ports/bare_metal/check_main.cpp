@@ -2,8 +2,8 @@
 //
 //   striker-check [recording FILE]
 //
-// Golden vectors; networks of many shapes, relative states and a recorded run of the simulator as a hash each, the
-// run compared frame by frame too. Exit status 0 if nothing differed.
+// Golden vectors; networks of many shapes, relative states and a recorded run of the simulator as a hash
+// each, the run compared frame by frame too. Exit status 0 if nothing differed.
 #include <array>
 #include <cstdint>
 #include <type_traits>

@@ -67,7 +67,8 @@ int main() {
     tick = now;
     missed_in_window += missed;
     timing.overruns = std::min(timing.overruns + static_cast<std::int32_t>(missed), greatest_measured);
-    controller.step({.tick = tick, .frames = std::span(inbox.frames).first(inbox.count), .timing = timing}, outputs);
+    controller.step({.tick = tick, .frames = std::span(inbox.frames).first(inbox.count), .timing = timing},
+                    outputs);
     send_all(outputs);
     if (missed_in_window > missed_tick_limit && controller.fault() == can::Fault::none) {
       controller.enter_fault(can::Fault::overrun, outputs);

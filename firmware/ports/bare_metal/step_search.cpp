@@ -42,8 +42,9 @@ std::int32_t any_of(SmallRandom& random, std::int32_t limit) {
 
 void add_wheels(Scene& scene, SmallRandom& random, Frames& frames) {
   const std::int32_t limit = one_in(random, 64) ? 4000 : 2550;
-  frames.add(can::send(
-      can::WheelState{.left_mm_s = any_of(random, limit), .right_mm_s = any_of(random, limit)}, scene.wheels));
+  frames.add(
+      can::send(can::WheelState{.left_mm_s = any_of(random, limit), .right_mm_s = any_of(random, limit)},
+                scene.wheels));
 }
 
 void add_picture(Scene& scene, SmallRandom& random, Frames& frames) {
@@ -154,8 +155,8 @@ SearchResult search_longest_step(std::uint32_t steps, std::uint32_t seed) {
     }
     let_time_pass(scene, random);
   }
-  result.greatest_instructions =
-      static_cast<std::uint32_t>((std::uint64_t{longest_counts} * unit.instructions + unit.counts - 1) / unit.counts);
+  result.greatest_instructions = static_cast<std::uint32_t>(
+      (std::uint64_t{longest_counts} * unit.instructions + unit.counts - 1) / unit.counts);
   return result;
 }
 

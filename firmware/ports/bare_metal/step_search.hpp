@@ -1,5 +1,5 @@
-// A search for the longest `step`: a bus that behaves, mostly, and misbehaves in every way that the controller's code
-// has a branch for; steps that took long are where it goes on from.
+// A search for the longest `step`: a bus that behaves, mostly, and misbehaves in every way that the
+// controller's code has a branch for; steps that took long are where it goes on from.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The serial port of Nordic's nRF51 (nRF51 Series Reference Manual 3.0, chapter 28), on the BBC micro:bit's pins.
+// The serial port of Nordic's nRF51 (nRF51 Series Reference Manual 3.0, chapter 28), on the BBC micro:bit's
+// pins.
 #include <cstdint>
 
 #include "ports/bare_metal/uart.hpp"

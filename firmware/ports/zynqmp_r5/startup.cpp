@@ -1,6 +1,7 @@
 // Reset of the Cortex-R5F, which begins in Arm state; everything else is Thumb, as the kernel is.
 //
-// No interrupts: the port polls. An exception finds no vector table of its own here and stays in the memory's.
+// No interrupts: the port polls. An exception finds no vector table of its own here and stays in the
+// memory's.
 #include <cstdint>
 
 #include "ports/bare_metal/memory.hpp"

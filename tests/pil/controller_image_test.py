@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""Runs the Cortex-M4F's controller image, as it would be flashed, on QEMU: slcan over the board's serial port, the
+recorded run's frames as its bus, tick by tick. It has to arm and decide, and its stack, painted at reset, must not
+have been deeper than the computed bound."""
+
+import argparse
+import os
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+import qemu_image
+import stack_usage
+
+PAINT = 0xC5C5C5C5
+SYNC, WHEEL_COMMAND, STATUS, DECISION = 0x030, 0x050, 0x100, 0x110
+FROM_CONTROLLER = 0x8000
+ACTIVE = 3
+
+
+def recorded_ticks(path):
+    """The frames to the controller, tick by tick, as slcan lines."""
+    ticks, frames = [], b""
+    with open(path, "rb") as recording:
+        while len(record := recording.read(11)) == 11:
+            identifier, length, data = struct.unpack("<HB8s", record)
+            if identifier == SYNC:
+                ticks.append(frames)
+                frames = b""
+            elif not identifier & FROM_CONTROLLER:
+                frames += f"t{identifier:03X}{length}{data[:length].hex().upper()}\r".encode()
+    return ticks
+
+
+def connect(path):
+    for _ in range(200):
+        try:
+            connection = socket.socket(socket.AF_UNIX)
+            connection.connect(path)
+            return connection
+        except OSError:
+            time.sleep(0.05)
+    sys.exit("controller_image_test: QEMU did not come up within 10 s")
+
+
+def exchange(serial, ticks):
+    """Sends a tick's frames whenever a wheel command has come; what came back, by identifier."""
+    answers, waiting = {}, b""
+    for frames in ticks:
+        serial.sendall(frames)
+        commanded = False
+        while not commanded:
+            received = serial.recv(65536)
+            if not received:
+                sys.exit("controller_image_test: the image stopped")
+            *lines, waiting = (waiting + received).split(b"\r")
+            for line in lines:
+                identifier = int(line[1:4], 16)
+                answers.setdefault(identifier, []).append(bytes.fromhex(line[5:].decode()))
+                commanded |= identifier == WHEEL_COMMAND
+    return answers
+
+
+def deepest_stack(control, bottom, top, folder):
+    """Bytes of the stack that no longer hold the paint."""
+    path = os.path.join(folder, "stack.bin")
+    stream = control.makefile("rw")
+    stream.readline()
+    for request in ('{"execute": "qmp_capabilities"}', '{"execute": "stop"}',
+                    f'{{"execute": "pmemsave", "arguments": {{"val": {bottom}, "size": {top - bottom}, '
+                    f'"filename": "{path}"}}}}'):
+        stream.write(request + "\n")
+        stream.flush()
+        while '"event"' in (answer := stream.readline()):
+            pass
+        if '"error"' in answer:
+            sys.exit(f"controller_image_test: QEMU: {answer}")
+    with open(path, "rb") as memory:
+        words = struct.unpack(f"<{(top - bottom) // 4}I", memory.read())
+    untouched = next((i for i, word in enumerate(words) if word != PAINT), len(words))
+    return top - bottom - 4 * untouched
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--recording", required=True)
+    parser.add_argument("--build-dir", required=True, help="the Cortex-M4F's, built")
+    arguments = parser.parse_args()
+    image = os.path.join(arguments.build_dir, "bin", "striker-controller.elf")
+    bound, _ = stack_usage.stack_usage(image, arguments.build_dir)
+    symbols = stack_usage.symbols(image)
+    with tempfile.TemporaryDirectory() as folder:
+        serial_path, control_path = os.path.join(folder, "serial"), os.path.join(folder, "control")
+        line = ["qemu-system-arm", "-M", qemu_image.BOARDS["cortex-m4"][1], "-kernel", image, "-display", "none",
+                "-monitor", "none", "-icount", "shift=0", "-serial", f"unix:{serial_path},server=on,wait=on",
+                "-qmp", f"unix:{control_path},server=on,wait=off"]
+        with subprocess.Popen(line, stdin=subprocess.DEVNULL) as process:
+            try:
+                serial = connect(serial_path)
+                serial.settimeout(20)
+                answers = exchange(serial, recorded_ticks(arguments.recording)[:600])
+                deepest = deepest_stack(connect(control_path), symbols["stack_bottom"], symbols["stack_top"], folder)
+            finally:
+                process.kill()
+    states = {status[1] >> 4 for status in answers.get(STATUS, [])}
+    decisions = len(answers.get(DECISION, []))
+    print(f"{len(answers[WHEEL_COMMAND])} wheel commands, {decisions} decisions, states {sorted(states)}")
+    print(f"stack: {deepest} bytes deep, bound {bound} bytes")
+    # An instruction a nanosecond: the board's 1 ms is long enough for this process to answer, on any machine.
+    good = ACTIVE in states and decisions > 4 and 0 < deepest <= bound
+    sys.exit(0 if good else 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Builds the images for one processor and holds them, on its emulation, to the host's answers and to limits.json."""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+
+import qemu_image
+import stack_usage
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+
+# The network that limits.json is for: others may take as much for each multiply-accumulate, and a quarter more.
+MULTIPLY_ACCUMULATES = 6 * 64 + 64 * 64 + 64 * 3
+
+
+def build(cpu, policy, build_dir):
+    for command in (
+        ["cmake", "-G", "Ninja", "-S", ROOT, "-B", build_dir, "-DCMAKE_BUILD_TYPE=Release", f"-DSTRIKER_CPU={cpu}",
+         f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/firmware/ports/arm-none-eabi.cmake", f"-DSTRIKER_POLICY={policy}"],
+        ["cmake", "--build", build_dir],
+    ):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            sys.exit(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
+
+
+def image(build_dir, name):
+    return os.path.join(build_dir, "bin", f"striker-{name}.elf")
+
+
+def inference_limit(cpu, macs):
+    """limits.json's, or in proportion for another network."""
+    with open(os.path.join(HERE, "limits.json"), encoding="utf-8") as text:
+        limits = json.load(text)[cpu]
+    if macs == MULTIPLY_ACCUMULATES:
+        return limits["inference"], limits["step"]
+    scaled = limits["inference"] * macs * 5 // (MULTIPLY_ACCUMULATES * 4)
+    return scaled, limits["step"] + max(0, scaled - limits["inference"])
+
+
+def expect(holds, text):
+    print(("ok: " if holds else "FAILED: ") + text)
+    return holds
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--cpu", required=True, choices=qemu_image.BOARDS)
+    parser.add_argument("--policy", required=True)
+    parser.add_argument("--host", required=True, help="the check program, built for the host")
+    parser.add_argument("--recording", required=True)
+    parser.add_argument("--build-dir", required=True)
+    parser.add_argument("--inputs", type=int, default=200)
+    parser.add_argument("--search", type=int, default=20000)
+    arguments = parser.parse_args()
+    cpu = arguments.cpu
+    build(cpu, arguments.policy, arguments.build_dir)
+    good = True
+    try:
+        words = ["recording", arguments.recording]
+        host = subprocess.run([arguments.host] + words, capture_output=True, text=True, check=True).stdout
+        target = qemu_image.run(cpu, image(arguments.build_dir, "check"), words)
+        print(target, end="")
+        good &= expect(target == host, "the same answers as on the host, to the letter")
+
+        measured = qemu_image.numbers(qemu_image.run(
+            cpu, image(arguments.build_dir, "bench"),
+            ["inputs", arguments.inputs, "search", arguments.search, "seed", 2]))
+        least, greatest = measured["inference min"], measured["inference max"]
+        limit, step_limit = inference_limit(cpu, measured["multiply-accumulates"])
+        good &= expect(least == greatest, f"{least} to {greatest} instructions an inference, whatever the input")
+        good &= expect(greatest <= limit, f"{greatest} instructions an inference, of {limit}")
+        longest = measured["search max"]
+        good &= expect(longest <= step_limit, f"{longest} instructions in the longest step, of {step_limit}")
+        good &= expect(measured["search decisions"] > 0, f"{measured['search decisions']} steps decided")
+
+        controller = image(arguments.build_dir, "controller")
+        bound, path = stack_usage.stack_usage(controller, arguments.build_dir)
+        room = stack_usage.stack_room(controller)
+        good &= expect(bound <= room, f"worst-case stack {bound} bytes, of {room}: {' > '.join(path)}")
+    except (qemu_image.ImageError, stack_usage.StackError) as error:
+        sys.exit(f"image_test: {error}")
+    sys.exit(0 if good else 1)
+
+
+if __name__ == "__main__":
+    main()
