@@ -25,7 +25,8 @@ class ImageError(Exception):
 
 
 def _semihosting(words):
-    return ["-semihosting-config", ",".join(["enable=on", "target=native"] + [f"arg={word}" for word in words])]
+    return ["-chardev", "stdio,id=console", "-semihosting-config",
+            ",".join(["enable=on", "target=native", "chardev=console"] + [f"arg={word}" for word in words])]
 
 
 def command(cpu, image, words):
