@@ -1,5 +1,6 @@
 // Runs the kernel on one set of 200 inputs, for a tool that counts its instructions:
 //   kernel_probe random|zero|high|low|mixed
+//   kernel_probe macs       prints the network's multiply-accumulates
 #include <cstdio>
 #include <limits>
 #include <random>
@@ -35,6 +36,11 @@ extern "C" [[gnu::noinline]] int counted_inference(const Raw& raw) {
 
 int main(int argc, char** argv) {
   const std::string_view set = argc > 1 ? argv[1] : "zero";
+  if (set == "macs") {
+    std::printf("%zu\n", policy.inputs * policy.hidden1 + policy.hidden1 * policy.hidden2 +
+                             policy.hidden2 * policy.actions);
+    return 0;
+  }
   std::mt19937 random(1);
   int actions = 0;
   for (int i = 0; i < 200; ++i) {
