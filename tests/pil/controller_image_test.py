@@ -13,7 +13,11 @@ import tempfile
 import time
 
 import qemu_image
-import stack_usage
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "firmware", "ports", "bare_metal"))
+
+import stack_usage  # noqa: E402
 
 PAINT = 0xC5C5C5C5
 SYNC, WHEEL_COMMAND, STATUS, DECISION = 0x030, 0x050, 0x100, 0x110

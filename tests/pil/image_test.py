@@ -8,10 +8,12 @@ import subprocess
 import sys
 
 import qemu_image
-import stack_usage
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, "firmware", "ports", "bare_metal"))
+
+import stack_usage  # noqa: E402
 
 # The network that limits.json is for: others may take as much for each multiply-accumulate, and a quarter more.
 MULTIPLY_ACCUMULATES = 6 * 64 + 64 * 64 + 64 * 3

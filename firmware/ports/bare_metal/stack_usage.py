@@ -140,14 +140,20 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("image", help="an .elf of firmware/ports")
     parser.add_argument("--build-dir", required=True, help="where it was built: its .ci files")
+    parser.add_argument("--path", action="store_true", help="print the calls that take it")
     arguments = parser.parse_args()
     try:
         total, path = stack_usage(arguments.image, arguments.build_dir)
     except StackError as error:
         sys.exit(f"stack_usage: {arguments.image}: {error}")
-    print(f"worst-case stack: {total} bytes")
-    for step in path:
-        print(f"  {step}")
+    room = stack_room(arguments.image)
+    if total > room:
+        sys.exit(f"stack_usage: {arguments.image}: {total} bytes of stack, but the linker script sets {room} aside: "
+                 "see STRIKER_CONTROLLER_STACK")
+    print(f"worst-case stack: {total} bytes of {room}")
+    if arguments.path:
+        for step in path:
+            print(f"  {step}")
 
 
 if __name__ == "__main__":
