@@ -70,7 +70,8 @@ class Reader {
     std::smatch part;
     if (std::regex_match(line, part, message)) {
       const auto id = number<std::uint32_t>(part[1]);
-      if (id != no_message && !dbc_.messages.try_emplace(id, part[2], part[4], number<int>(part[3])).second) {
+      const Described described{part[2], part[4], number<int>(part[3]), {}};
+      if (id != no_message && !dbc_.messages.try_emplace(id, described).second) {
         fail(fmt::format("line {}: identifier {} is there twice", line_, id));
       }
     } else if (std::regex_match(line, part, attribute)) {

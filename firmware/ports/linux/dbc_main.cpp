@@ -13,7 +13,12 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   striker::can::print_dbc(
-      [](void*, std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }, nullptr);
+      [](void*, std::string_view text) {
+        if (!text.empty()) {
+          std::fwrite(text.data(), 1, text.size(), stdout);
+        }
+      },
+      nullptr);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     std::fputs("striker-dbc: cannot write to standard output: is the disk full?\n", stderr);
     return 2;
