@@ -176,7 +176,7 @@ TEST(ResponseTime, NoSimulatedBusIsBeyondTheBound) {
   for (std::uint64_t set = 0; set < 10'000; ++set) {
     const Drawn drawn = draw_set(random);
     const auto bounds = analyse(drawn.messages, drawn.assumptions);
-    const std::int64_t horizon_ns = 300 * 135 * drawn.assumptions.bit_ns;
+    const std::int64_t horizon_ns = std::int64_t{300} * 135 * drawn.assumptions.bit_ns;
     const bool real_bits = random.uniform() < 0.3;
     const auto bits_of = [&](const BusMessage& message) {
       return real_bits ? uniform(random, 47 + 8 * message.bytes, worst_case_frame_bits(message.bytes))

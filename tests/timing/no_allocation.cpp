@@ -10,6 +10,8 @@
 #include <cstring>
 #include <ctime>
 
+// glibc's own names for what is behind malloc and its kin.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
@@ -17,6 +19,7 @@ void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* block);
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace {
 
@@ -94,7 +97,7 @@ int clock_nanosleep(clockid_t clock, int flags, const timespec* time, timespec* 
   }
   const char* provoked = std::getenv("STRIKER_PROVOKE");
   if (provoked != nullptr && deadlines == 100) {
-    delete new int(std::atoi(provoked));
+    std::free(strdup(provoked));
   }
   return real(clock, flags, time, rest);
 }
