@@ -213,6 +213,7 @@ EnvConfig read_task(const Reader& reader) {
   reader.read<Equations>("task.equations", task.equations,
                          {{"corrected", Equations::corrected}, {"printed", Equations::printed}});
   task.inputs = read_inputs(reader);
+  reader.read("task.mirrored", task.mirrored);
   task.actions.clear();
   for (const auto& pair : reader.pairs("task.actions", 2, 16, -2.55, 2.55)) {
     task.actions.push_back({.left_m_s = pair[0], .right_m_s = pair[1]});
@@ -279,10 +280,13 @@ Shape read_shape(const Reader& reader, const EnvConfig& task) {
   return shape;
 }
 
-void require_mirror_image(const Reader& reader, const EnvConfig& task) {
+void require_mirror_image(const Reader& reader, const std::string& key, const EnvConfig& task) {
   if ((mirror_factors(task.inputs).array() == 0.0F).any()) {
-    reader.fail("learner.mirror", "the inputs hold field_ elements, which have no mirror image");
+    reader.fail(key, "the inputs hold field_ elements, which have no mirror image");
   }
+}
+
+void require_mirror_actions(const Reader& reader, const EnvConfig& task) {
   for (int action = 0; action < static_cast<int>(task.actions.size()); ++action) {
     if (mirrored_action(task.actions, action) < 0) {
       reader.fail("learner.mirror", "task.actions holds an action whose mirror image is none of them");
@@ -315,8 +319,12 @@ Config parse_config(std::string_view text, const std::string& file, const std::v
   config.environments = read_environments(reader);
   config.shape = read_shape(reader, config.environments.front());
   read_learner(reader, config.learner);
+  if (config.environments.front().mirrored) {
+    require_mirror_image(reader, "task.mirrored", config.environments.front());
+  }
   if (config.learner.mirror) {
-    require_mirror_image(reader, config.environments.front());
+    require_mirror_image(reader, "learner.mirror", config.environments.front());
+    require_mirror_actions(reader, config.environments.front());
   }
   reader.read("optimiser.learning_rate", config.optimiser.learning_rate, 1e-7, 1.0);
   reader.read("optimiser.final_fraction", config.optimiser.final_fraction, 0.0, 1.0);

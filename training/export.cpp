@@ -139,6 +139,7 @@ Export export_model(const Model& model, const EnvConfig& task) {
   policy.configuration_hash = fnv1a(configuration == model.metadata.end() ? "" : configuration->second);
   policy.decision_period_ms = static_cast<std::int32_t>(std::lround(sil::decision_period_s * 1e3));
   policy.inputs = task.inputs;
+  policy.mirrored = task.mirrored;
   policy.network = exported.quantised.network;
   for (const SetPoints& action : task.actions) {
     policy.set_points.push_back({.left_mm_s = mm_s(action.left_m_s), .right_mm_s = mm_s(action.right_m_s)});

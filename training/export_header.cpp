@@ -64,8 +64,9 @@ std::string inputs_text(const ExportedPolicy& policy) {
                             facts_of(element).name, ago);
     scales += fmt::format("        {{.multiplier = {}, .shift = {}}},\n", scale.multiplier, scale.shift);
   }
-  return fmt::format("    .state = {{{{\n{}    }}}},\n    .input_scales = {{{{\n{}    }}}},\n", elements,
-                     scales);
+  return fmt::format(
+      "    .state = {{{{\n{}    }}}},\n    .mirrored = {},\n    .input_scales = {{{{\n{}    }}}},\n",
+      elements, policy.mirrored, scales);
 }
 
 std::string set_points_text(const std::vector<SetPoint>& set_points) {
@@ -96,6 +97,7 @@ std::uint32_t identity_of(const ExportedPolicy& policy) {
     hash.add(static_cast<std::uint8_t>(input.element));
     hash.add(static_cast<std::uint8_t>(input.decisions_ago));
   }
+  hash.add(static_cast<std::uint8_t>(policy.mirrored));
   for (const InputScale& scale : policy.network.input_scales) {
     hash.add(scale.multiplier);
     hash.add(static_cast<std::uint8_t>(scale.shift));

@@ -25,6 +25,7 @@ struct ExportedPolicy {
   std::uint32_t configuration_hash = 0;  // FNV-1a of the training configuration's text
   std::int32_t decision_period_ms = 50;
   StateInputs inputs;
+  bool mirrored = false;
   IntegerNetwork network;
   std::vector<SetPoint> set_points;  // one an action
   std::vector<GoldenVector> golden_vectors;

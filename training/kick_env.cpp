@@ -46,18 +46,19 @@ void KickEnv::reset(std::uint64_t seed, std::uint64_t episode) {
   dummies_ = sil::Random(seed, episode, dummies_stream);
   decisions_ = 0;
   history_.begin(look());
-  see(config_.inputs, history_, dummies_, features_);
+  see(config_.inputs, history_, in_mirror(), dummies_, features_);
 }
 
 StepResult KickEnv::step(int action) {
   last_ball_m_ = history_.ago(0).field.ball.position_m;
   const bool before = outcome().contact;
-  drive(config_.actions[static_cast<std::size_t>(action)], steps_per_decision);
+  const auto [left_m_s, right_m_s] = config_.actions[static_cast<std::size_t>(action)];
+  drive(in_mirror() ? SetPoints{right_m_s, left_m_s} : SetPoints{left_m_s, right_m_s}, steps_per_decision);
   StepResult result;
   result.reward = episode_.end_decision();
   ++decisions_;
   history_.add(look());
-  see(config_.inputs, history_, dummies_, features_);
+  see(config_.inputs, history_, in_mirror(), dummies_, features_);
   result.contact = outcome().contact && !before;
   result.last = decisions_ == sil::kick_decisions;
   result.end = result.last || (result.contact && !config_.goes_on);

@@ -49,6 +49,9 @@ struct EnvConfig {
   Velocities velocities = Velocities::exact;
   Equations equations = Equations::corrected;
   StateInputs inputs = rcs_inputs();
+  // The network sees the ball on the left only: where it is on the right, the situation is seen as in a
+  // mirror along the heading, and an action swaps the wheels.
+  bool mirrored = false;
   std::vector<SetPoints> actions = kick_actions();
   sil::KickRules rules = {};
   bool goes_on = false;  // the contact does not end the learner's episode
@@ -74,11 +77,12 @@ class KickEnv {
   [[nodiscard]] const Features& features() const { return features_; }  // what a network sees
   [[nodiscard]] const RcsState& state() const { return history_.ago(0).rcs; }
   [[nodiscard]] int decisions_left() const { return history_.ago(0).decisions_left; }
-  [[nodiscard]] RawState raw() const { return raw_state(config_.inputs, history_); }
+  [[nodiscard]] RawState raw() const { return raw_state(config_.inputs, history_, in_mirror()); }
   [[nodiscard]] const sil::KickOutcome& outcome() const { return episode_.outcome(); }
   [[nodiscard]] double simulated_s() const { return simulated_s_; }  // since it was made
 
  private:
+  [[nodiscard]] bool in_mirror() const { return config_.mirrored && state().ball_y_m < 0.0; }
   void drive(const SetPoints& set_points, int steps);
   [[nodiscard]] Sight look() const;
 

@@ -148,11 +148,13 @@ void History::add(const Sight& sight) {
   sights_.front() = sight;
 }
 
-void see(const StateInputs& inputs, const History& history, sil::Random& dummies, Features& features) {
+void see(const StateInputs& inputs, const History& history, bool mirror, sil::Random& dummies,
+         Features& features) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto [element, ago] = inputs[i];
-    features[static_cast<Eigen::Index>(i)] =
-        static_cast<float>(value_of(element, history.ago(ago), dummies) / facts_of(element).unit);
+    const ElementFacts& facts = facts_of(element);
+    const auto value = static_cast<float>(value_of(element, history.ago(ago), dummies) / facts.unit);
+    features[static_cast<Eigen::Index>(i)] = mirror ? facts.mirror * value : value;
   }
 }
 
@@ -163,7 +165,7 @@ Features mirror_factors(const StateInputs& inputs) {
   return factors;
 }
 
-RawState raw_state(const StateInputs& inputs, const History& history) {
+RawState raw_state(const StateInputs& inputs, const History& history, bool mirror) {
   RawState raw;
   raw.reserve(inputs.size());
   sil::Random none(0, 0, 0);
@@ -171,7 +173,8 @@ RawState raw_state(const StateInputs& inputs, const History& history) {
     const double value = value_of(element, history.ago(ago), none) * facts_of(element).raw_per_value;
     const auto rounded = static_cast<std::int32_t>(std::lround(value));
     // The binary angle wraps: pi and -pi are the same count.
-    raw.push_back(element == Element::ball_angle ? static_cast<std::int16_t>(rounded) : rounded);
+    const std::int32_t stored = element == Element::ball_angle ? static_cast<std::int16_t>(rounded) : rounded;
+    raw.push_back(mirror && facts_of(element).mirror < 0.0F ? -stored : stored);
   }
   return raw;
 }

@@ -116,8 +116,10 @@ class History {
 
 using Features = Eigen::VectorXf;  // one value an input
 
-// Writes into `features`, which has the inputs' size already.
-void see(const StateInputs& inputs, const History& history, sil::Random& dummies, Features& features);
+// Writes into `features`, which has the inputs' size already; `mirror`: as seen in a mirror along the
+// heading.
+void see(const StateInputs& inputs, const History& history, bool mirror, sil::Random& dummies,
+         Features& features);
 
 // The same situation seen in a mirror along the heading is the features times these factors, element by
 // element. The task is symmetric: the reward stays.
@@ -126,7 +128,7 @@ void see(const StateInputs& inputs, const History& history, sil::Random& dummies
 // The controller's integers of the same inputs. No input may be for experiments only.
 using RawState = std::vector<std::int32_t>;
 
-[[nodiscard]] RawState raw_state(const StateInputs& inputs, const History& history);
+[[nodiscard]] RawState raw_state(const StateInputs& inputs, const History& history, bool mirror = false);
 [[nodiscard]] Features features_of(const StateInputs& inputs, std::span<const std::int32_t> raw);
 
 }  // namespace striker::training

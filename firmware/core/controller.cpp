@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 #include "core/network.hpp"
 #include "core/policy_proof.hpp"
@@ -31,6 +32,7 @@ static_assert(std::is_trivially_copyable_v<Controller>);
 constexpr auto state_inputs = policy.state;
 constexpr auto golden_vectors = policy.golden_vectors;
 constexpr auto set_points = policy.set_points;
+constexpr bool mirrored = policy.mirrored;
 
 constexpr std::uint32_t low_31_bits = 0x7FFFFFFF;
 
@@ -170,9 +172,11 @@ void Controller::decide(bool extrapolated, Outputs& outputs) {
   const auto made = static_cast<std::int32_t>(std::min<std::uint32_t>(decision_.number, decisions_a_kick));
   state.decisions_left = decisions_a_kick - made;
   remember(state);
+  const bool mirror = mirrored && state.ball_um.y < 0;
   std::array<std::int32_t, Trained::inputs> raw{};
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    raw[i] = element_of(history_[state_inputs[i].decisions_ago], state_inputs[i].element);
+    const std::int32_t value = element_of(history_[state_inputs[i].decisions_ago], state_inputs[i].element);
+    raw[i] = mirror && changes_sign(state_inputs[i].element) ? -value : value;
   }
   const auto q = infer<policy>(raw);
   decision_.number += 1;
@@ -181,6 +185,9 @@ void Controller::decide(bool extrapolated, Outputs& outputs) {
   std::copy(raw.begin(), raw.end(), decision_.inputs.begin());
   left_set_point_mm_s_ = set_points[q.action].left_mm_s;
   right_set_point_mm_s_ = set_points[q.action].right_mm_s;
+  if (mirror) {
+    std::swap(left_set_point_mm_s_, right_set_point_mm_s_);
+  }
   outputs.add(can::pack(can::Decision{.number = static_cast<std::int32_t>((decision_.number - 1) & 0xFFFFU),
                                       .action = q.action,
                                       .extrapolated = static_cast<std::int32_t>(extrapolated),

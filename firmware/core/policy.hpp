@@ -37,6 +37,12 @@ struct StateInput {
   std::uint8_t decisions_ago;  // 0 to greatest_look_back
 };
 
+// In a mirror along the heading.
+[[nodiscard]] constexpr bool changes_sign(StateElement element) {
+  return element == StateElement::ball_y || element == StateElement::ball_vy ||
+         element == StateElement::ball_angle;
+}
+
 inline constexpr std::uint8_t greatest_look_back = 4;
 inline constexpr std::size_t greatest_inputs = 32;
 inline constexpr std::int32_t decisions_a_kick = 40;
@@ -79,6 +85,9 @@ struct Policy {
   std::uint32_t configuration_hash;  // FNV-1a (32 bits) of the training configuration's text
   std::int32_t decision_period_ms;   // the period it was trained at
   std::array<StateInput, Inputs> state;
+  // The network was trained with the ball on the robot's left only. Where it is on the right (ball_y < 0) the
+  // controller reads the situation as in a mirror along the heading (`changes_sign`), and swaps the wheels.
+  bool mirrored;
   std::array<InputScale, Inputs> input_scales;
   Layer<Inputs, Hidden1> layer1;
   Layer<Hidden1, Hidden2> layer2;

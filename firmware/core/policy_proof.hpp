@@ -125,6 +125,7 @@ constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G>& policy) {
     hash.add(static_cast<std::uint8_t>(input.element));
     hash.add(input.decisions_ago);
   }
+  hash.add(static_cast<std::uint8_t>(policy.mirrored));
   for (const InputScale& scale : policy.input_scales) {
     hash.add(scale.multiplier);
     hash.add(scale.shift);

@@ -16,7 +16,7 @@ namespace striker::policy {
 
 // clang-format off
 inline constexpr core::Policy<6, 64, 64, 3, 16> trained = {
-    .identity = 0x6A01FDEBU,
+    .identity = 0x53FCB8E3U,
     .configuration_hash = 0x986180D3U,
     .decision_period_ms = 50,
     .state = {{
@@ -27,6 +27,7 @@ inline constexpr core::Policy<6, 64, 64, 3, 16> trained = {
         {.element = core::StateElement::ball_vy, .decisions_ago = 0},
         {.element = core::StateElement::ball_angle, .decisions_ago = 0},
     }},
+    .mirrored = false,
     .input_scales = {{
         {.multiplier = 549756, .shift = 27},
         {.multiplier = 549756, .shift = 27},

@@ -113,6 +113,7 @@ TEST(Config, InputsMayBeDummiesAndPast) {
 TEST(Config, TheMirrorNeedsAnImage) {
   const std::string mirror = "[learner]\nmirror = true\n";
   EXPECT_THROW((void)parse_config(mirror + "[task]\ninputs = \"acs\"\n", "f"), std::runtime_error);
+  EXPECT_THROW((void)parse_config("[task]\nmirrored = true\ninputs = \"acs\"\n", "f"), std::runtime_error);
   EXPECT_THROW((void)parse_config(mirror + "[task]\nactions = [[1.0, 2.0], [0.0, 0.0]]\n", "f"),
                std::runtime_error);
   const Config turning =

@@ -26,6 +26,7 @@ EnvConfig another_task() {
     task.inputs.push_back(input);
   }
   task.inputs.back() = {.element = Element::decisions_left};
+  task.mirrored = true;
   task.actions.push_back({.left_m_s = 2.0, .right_m_s = 1.0});
   task.actions.push_back({.left_m_s = 1.0, .right_m_s = 2.0});
   return task;
@@ -119,7 +120,7 @@ TEST(Export, AnotherTasksHeaderProvesItself) {
                "static_assert(core::identity_of(policy::trained) == policy::trained.identity);\n"
                "static_assert(policy::trained.inputs == 12 && policy::trained.hidden1 == 32);\n"
                "static_assert(policy::trained.hidden2 == 16 && policy::trained.actions == 5);\n"
-               "static_assert(policy::trained.state[6].decisions_ago == 1);\n"
+               "static_assert(policy::trained.state[6].decisions_ago == 1 && policy::trained.mirrored);\n"
                "static_assert(policy::trained.state[11].element == core::StateElement::decisions_left);\n"
                "static_assert(policy::trained.set_points[3].left_mm_s == 2000);\n"
                "static_assert(policy::trained.set_points[3].right_mm_s == 1000);\n",

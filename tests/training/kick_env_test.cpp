@@ -130,6 +130,38 @@ TEST(KickEnv, TheStateAtTheStartIsThePosesIndependent) {
   }
 }
 
+// The same situation on the other side of the heading: the same features, and the wheels swapped.
+TEST(KickEnv, AMirroredTaskKnowsTheLeftOnly) {
+  EnvConfig task;
+  task.mirrored = true;
+  task.actions = {{.left_m_s = 2.0, .right_m_s = 1.0}, {.left_m_s = -1.0, .right_m_s = -1.5}};
+  KickEnv mirrored(task);
+  task.mirrored = false;
+  KickEnv plain(task);
+  std::swap(task.actions[0].left_m_s, task.actions[0].right_m_s);
+  KickEnv swapped(task);
+  int right_side = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    for (KickEnv* env : {&mirrored, &plain, &swapped}) {
+      env->reset(seed, i);
+    }
+    const bool right = plain.state().ball_y_m < 0.0;
+    const Features image = plain.features().cwiseProduct(mirror_factors(task.inputs));
+    EXPECT_LT((mirrored.features() - (right ? image : plain.features())).norm(), 1e-6F);
+    EXPECT_GE(mirrored.features()[1], 0.0F);
+    EXPECT_GE(mirrored.raw()[1], 0);
+    for (KickEnv* env : {&mirrored, &plain, &swapped}) {
+      env->step(0);
+    }
+    const KickEnv& same = right ? swapped : plain;
+    EXPECT_EQ(mirrored.state().ball_x_m, same.state().ball_x_m);
+    EXPECT_EQ(mirrored.state().ball_y_m, same.state().ball_y_m);
+    right_side += right ? 1 : 0;
+  }
+  EXPECT_GT(right_side, 20);
+  EXPECT_LT(right_side, 80);
+}
+
 // A user's own actions, inputs and reward.
 TEST(KickEnv, ATaskOfOnesOwn) {
   EnvConfig task;
