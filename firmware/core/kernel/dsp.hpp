@@ -189,17 +189,17 @@ struct Dsp {
     finish_stores(in);
     const std::uint32_t* weights = layer.data();
     std::uint32_t* to = out.words.data();
-    // Two groups a turn where they are small: there the loop's own instructions count.
-    constexpr std::size_t groups = pairs(Inputs) <= 32 ? 2 : 1;
-    for (const std::uint32_t* end = to + Outputs / group_rows / groups * groups * 2; to != end;
-         to += 2 * groups) {
-#pragma GCC unroll 2
+    // Several groups a turn where they are small: there the loop's own instructions count.
+    constexpr std::size_t all_groups = Outputs / group_rows;
+    constexpr std::size_t groups = pairs(Inputs) <= 8 ? 4 : pairs(Inputs) <= 32 ? 2 : 1;
+    for (const std::uint32_t* end = to + all_groups / groups * groups * 2; to != end; to += 2 * groups) {
+#pragma GCC unroll 4
       for (std::size_t group = 0; group < groups; ++group) {
         dsp::store_group<shift, pairs(Inputs)>(weights, in.words.data(), to + 2 * group);
       }
     }
-    if constexpr (Outputs / group_rows % groups != 0) {
-      dsp::store_group<shift, pairs(Inputs)>(weights, in.words.data(), to);
+    for (std::size_t group = 0; group < all_groups % groups; ++group) {
+      dsp::store_group<shift, pairs(Inputs)>(weights, in.words.data(), to + 2 * group);
     }
     if constexpr (constexpr std::size_t rest = Outputs % group_rows; rest != 0) {
       const auto sums = dsp::group_sums<rest, pairs(Inputs)>(weights, in.words.data());

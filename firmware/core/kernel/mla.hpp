@@ -205,12 +205,24 @@ template <std::size_t Rows, std::size_t Columns, class Take>
 [[gnu::always_inline]] inline void each_sum(const std::uint32_t* weights, const std::uint32_t* activations,
                                             std::uint32_t offset, Take take) {
   constexpr std::size_t group = next_group(Rows);
-  for (std::size_t row = 0; row + group <= Rows; row += group) {
+  constexpr std::size_t all_groups = Rows / group;
+  const auto take_group = [&]() __attribute__((always_inline)) {
     const auto sums = group_sums<group, Columns>(weights, activations, offset);
     [&]<std::size_t... r>(std::index_sequence<r...>) {
       (take(sums[r]), ...);
     }
     (std::make_index_sequence<group>{});
+  };
+  // Several groups a turn where they are small: there the loop's own instructions count.
+  constexpr std::size_t groups = Columns <= 16 ? 4 : 1;
+  for (std::size_t turn = 0; turn < all_groups / groups; ++turn) {
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < groups; ++i) {
+      take_group();
+    }
+  }
+  for (std::size_t i = 0; i < all_groups % groups; ++i) {
+    take_group();
   }
   if constexpr (Rows % group != 0) {
     each_sum<Rows % group, Columns>(weights, activations, offset, take);
