@@ -4,6 +4,7 @@
 import argparse
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -42,6 +43,11 @@ def inference_limit(cpu, macs):
         return limits["inference"], limits["step"]
     scaled = limits["inference"] * macs * 5 // (MULTIPLY_ACCUMULATES * 4)
     return scaled, limits["step"] + max(0, scaled - limits["inference"])
+
+
+# A heap, floating point, or exceptions.
+FORBIDDEN = re.compile(r"^(malloc|calloc|realloc|free|_sbrk|_?malloc_r|_Zn[wa].*|_Zd[la].*|__cxa_.*|_Unwind_.*"
+                       r"|__aeabi_[cfd](f|d|add|sub|mul|div|cmp|2|r).*|__aeabi_(u?[il]2[fd]|f2.*|d2.*))$")
 
 
 def expect(holds, text):
@@ -83,6 +89,8 @@ def main():
         controller = image(arguments.build_dir, "controller")
         bound, path = stack_usage.stack_usage(controller, arguments.build_dir)
         room = stack_usage.stack_room(controller)
+        forbidden = [name for name in stack_usage.symbols(controller) if FORBIDDEN.match(name)]
+        good &= expect(not forbidden, f"no heap, float helper or exception in the image: {forbidden}")
         good &= expect(bound <= room, f"worst-case stack {bound} bytes, of {room}: {' > '.join(path)}")
     except (qemu_image.ImageError, stack_usage.StackError) as error:
         sys.exit(f"image_test: {error}")

@@ -1,7 +1,7 @@
 // The measuring image, for QEMU with semihosting and `-icount shift=0`: instructions of the network and of
 // `step`.
 //
-//   striker-bench [inputs N] [plain N] [recording FILE] [ticks N] [search N] [seed N]
+//   striker-bench [inputs N] [shapes 1] [plain N] [recording FILE] [ticks N] [search N] [seed N]
 //
 // Prints "name number" lines for tools/bench-kernel. Every count is exact, from the first instruction of the
 // counted function to its return, but those of the search, which are exact to a count of the timer.
@@ -188,6 +188,8 @@ int main() {
     console::print_line("inference repetitions", exact_repetitions());
     console::print_line("inference min", range.least);
     console::print_line("inference max", range.greatest);
+  }
+  if (console::argument("shapes", 0) > 0) {
     print_shape<synthetic_paper>("inference 6-64-64-3");
     print_shape<synthetic_half>("inference 6-32-32-3");
     print_shape<synthetic_wide>("inference 12-128-128-5");
