@@ -161,5 +161,30 @@ TEST(Controller, TenInOneProcessDoNotDisturbEachOther) {
   }
 }
 
+// A policy that knows the left side only decides on the right as on the left.
+TEST(ControllerMirror, BothSidesAreTheSame) {
+  for (const std::int32_t y : {1, 400, 2000, 6000}) {
+    ControllerRig left;
+    ControllerRig right;
+    left.ball_y_quarter_mm = y;
+    right.ball_y_quarter_mm = -y;
+    left.arm();
+    right.arm();
+    for (int i = 0; i < 20; ++i) {
+      left.run(50);
+      right.run(50);
+      const DecisionRecord& a = left.controller.last_decision();
+      const DecisionRecord& b = right.controller.last_decision();
+      ASSERT_EQ(a.number, b.number);
+      ASSERT_EQ(a.action, b.action);
+      ASSERT_EQ(left.command.left_set_point_2mm_s, right.command.right_set_point_2mm_s);
+      for (std::size_t k = 0; k < policy_inputs().size(); ++k) {
+        // The CORDIC rounds both sides apart by a count or two.
+        ASSERT_NEAR(a.inputs[k], b.inputs[k], 4) << k;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace striker::core

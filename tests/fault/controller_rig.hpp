@@ -16,6 +16,7 @@ class ControllerRig {
  public:
   bool send_vision = true;
   bool send_wheels = true;
+  std::int32_t ball_y_quarter_mm = 0;
   can::WheelState wheels;
   std::vector<can::Frame> extra;  // for the next tick only
   Controller controller;
@@ -29,9 +30,11 @@ class ControllerRig {
       // The ball lies ahead and comes closer: something to decide about.
       const auto frame = static_cast<std::int32_t>(now_ / 50 % 16);
       frames.push_back(can::send(can::VisionPose{.frame = frame}, pose_counter_));
-      frames.push_back(can::send(
-          can::VisionBall{.frame = frame, .x_quarter_mm = 8000 - static_cast<std::int32_t>(now_ % 4000)},
-          ball_counter_));
+      frames.push_back(
+          can::send(can::VisionBall{.frame = frame,
+                                    .x_quarter_mm = 8000 - static_cast<std::int32_t>(now_ % 4000),
+                                    .y_quarter_mm = ball_y_quarter_mm},
+                    ball_counter_));
     }
     step(frames);
   }

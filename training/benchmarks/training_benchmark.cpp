@@ -1,6 +1,6 @@
-// What training costs: decisions of both worlds, and a gradient step of this trainer; beside it libtorch's, if
-// it is there (torch_step.cpp). tools/bench-training runs it with the repetitions interleaved and prints the
-// ratios.
+// What training costs: decisions of both worlds, and a gradient step of this trainer; beside it libtorch's,
+// if it is there (torch_step.cpp). tools/bench-training runs it with the repetitions interleaved and prints
+// the ratios.
 #include <benchmark/benchmark.h>
 
 #include "dqn.hpp"
