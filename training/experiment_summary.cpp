@@ -120,9 +120,14 @@ VariantSummary summarise_variant(const Variant& variant, const Runs& runs, const
   return summary;
 }
 
+// Without the sign of what rounds to 0.
+double hundredths(double value) {
+  return std::abs(value) < 0.005 ? 0.0 : value;
+}
+
 std::string figure(const Estimate& estimate) {
-  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", estimate.value, estimate.interval.low,
-                     estimate.interval.high);
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", hundredths(estimate.value), hundredths(estimate.interval.low),
+                     hundredths(estimate.interval.high));
 }
 
 std::string figure(const Crossing& crossing, int runs) {
