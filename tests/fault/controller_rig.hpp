@@ -16,7 +16,7 @@ class ControllerRig {
  public:
   bool send_vision = true;
   bool send_wheels = true;
-  std::int32_t ball_y_quarter_mm = 0;
+  std::int32_t ball_y_quarter_mm = 0;  // where it begins to come straight to the robot
   can::WheelState wheels;
   std::vector<can::Frame> extra;  // for the next tick only
   Controller controller;
@@ -29,12 +29,12 @@ class ControllerRig {
     if (send_vision && now_ % 50 == 0) {
       // The ball lies ahead and comes closer: something to decide about.
       const auto frame = static_cast<std::int32_t>(now_ / 50 % 16);
+      const std::int32_t x_quarter_mm = 8000 - static_cast<std::int32_t>(now_ % 4000);
       frames.push_back(can::send(can::VisionPose{.frame = frame}, pose_counter_));
-      frames.push_back(
-          can::send(can::VisionBall{.frame = frame,
-                                    .x_quarter_mm = 8000 - static_cast<std::int32_t>(now_ % 4000),
-                                    .y_quarter_mm = ball_y_quarter_mm},
-                    ball_counter_));
+      frames.push_back(can::send(can::VisionBall{.frame = frame,
+                                                 .x_quarter_mm = x_quarter_mm,
+                                                 .y_quarter_mm = ball_y_quarter_mm * x_quarter_mm / 8000},
+                                 ball_counter_));
     }
     step(frames);
   }
