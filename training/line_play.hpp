@@ -64,7 +64,8 @@ struct BallTrack {
 [[nodiscard]] inline double contact_reward(const BallTrack& track, int step, const LineState& robot) {
   const auto n = static_cast<std::size_t>(step);
   const double ahead_m = track.x_m[n] - robot.position_m;
-  return official.waiting_reward * (step / steps_per_decision) +
+  const int waited = step / steps_per_decision;
+  return official.waiting_reward * waited +
          official.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) +
          official.speed_reward_s_m * robot.speed_m_s;
 }

@@ -28,6 +28,7 @@ struct FloatLayer {
 
 std::vector<FloatLayer> layers_of(const Parameters& parameters) {
   std::vector<FloatLayer> layers;
+  layers.reserve(layer_count);
   for (int layer = 0; layer < layer_count; ++layer) {
     layers.push_back({parameters.weights(layer).cast<double>(), parameters.biases(layer).cast<double>()});
   }

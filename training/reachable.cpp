@@ -30,8 +30,9 @@ Reachable::Reachable(const LineGrid& grid) : grid_(grid), levels_(sil::kick_deci
     std::vector<LineNode>& now = levels_[level];
     cells.clear();
     for (std::uint32_t parent = 0; parent < before.size(); ++parent) {
-      for (std::uint8_t action = 0; action < line_set_points_m_s.size(); ++action) {
-        LineNode node{.state = before[parent].state, .parent = parent, .action = action};
+      for (std::size_t action = 0; action < line_set_points_m_s.size(); ++action) {
+        LineNode node{
+            .state = before[parent].state, .parent = parent, .action = static_cast<std::uint8_t>(action)};
         for (int i = 0; i < steps_per_decision; ++i) {
           advance(node.state, line_set_points_m_s[action]);
         }

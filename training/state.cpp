@@ -152,9 +152,9 @@ void see(const StateInputs& inputs, const History& history, bool mirror, sil::Ra
          Features& features) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto [element, ago] = inputs[i];
-    const ElementFacts& facts = facts_of(element);
-    const auto value = static_cast<float>(value_of(element, history.ago(ago), dummies) / facts.unit);
-    features[static_cast<Eigen::Index>(i)] = mirror ? facts.mirror * value : value;
+    const ElementFacts& about = facts_of(element);
+    const auto value = static_cast<float>(value_of(element, history.ago(ago), dummies) / about.unit);
+    features[static_cast<Eigen::Index>(i)] = mirror ? about.mirror * value : value;
   }
 }
 
