@@ -189,7 +189,7 @@ class ExperimentProgram : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(ExperimentProgram, TheSameBytesWithOneJobTwoJobsResumedAndUnderMpirun) {
+TEST_F(ExperimentProgram, TheSameBytesWithOneJobTwoJobsAndResumed) {
   ASSERT_EQ(run("one", "--jobs 1"), 0) << log();
   const auto wanted = files("one");
   EXPECT_EQ(wanted.size(), 8U * 3U + 3U + 1U + 6U);
@@ -205,13 +205,16 @@ TEST_F(ExperimentProgram, TheSameBytesWithOneJobTwoJobsResumedAndUnderMpirun) {
   std::filesystem::remove(directory_ / "two/runs/rcs/seed-1.json");
   ASSERT_EQ(run("two", "--jobs 1"), 0) << log();
   EXPECT_TRUE(files("two") == wanted);
-  if (std::system("mpirun --version > /dev/null 2>&1") == 0) {
-    ASSERT_EQ(run("mpi", "",
-                  "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -np 2"),
-              0)
-        << log();
-    EXPECT_TRUE(files("mpi") == wanted);
-  }
+}
+
+// Open MPI leaves memory behind when it ends, so this one is not for the sanitizers.
+TEST_F(ExperimentProgram, TheSameBytesUnderMpirun) {
+  ASSERT_EQ(run("one", "--jobs 2"), 0) << log();
+  ASSERT_EQ(run("mpi", "",
+                "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -np 2"),
+            0)
+      << log();
+  EXPECT_TRUE(files("mpi") == files("one"));
 }
 
 TEST_F(ExperimentProgram, BadInputIsRefused) {
