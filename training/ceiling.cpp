@@ -61,9 +61,9 @@ CeilingSearch::Needs CeilingSearch::needs(int decision, double to_beat) const {
     }
     const double angle_at_most =
         official.angle_reward * track_.reach_m[n] / std::hypot(track_.reach_m[n], track_.y_m[n]);
+    const int waited = step / steps_per_decision;
     const double speed_m_s =
-        (to_beat - official.waiting_reward * (step / steps_per_decision) - angle_at_most) /
-        official.speed_reward_s_m;
+        (to_beat - official.waiting_reward * waited - angle_at_most) / official.speed_reward_s_m;
     if (speed_m_s > top_speed_m_s) {
       continue;
     }
@@ -138,8 +138,8 @@ void CeilingSearch::expand(int decision) {
   cells_.clear();
   const auto count = static_cast<std::uint32_t>(levels_[static_cast<std::size_t>(decision)].size());
   for (std::uint32_t branch = 0; branch < count; ++branch) {
-    for (std::uint8_t action = 0; action < line_set_points_m_s.size(); ++action) {
-      grow(decision, branch, action, next);
+    for (std::size_t action = 0; action < line_set_points_m_s.size(); ++action) {
+      grow(decision, branch, static_cast<std::uint8_t>(action), next);
     }
   }
 }

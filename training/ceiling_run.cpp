@@ -176,6 +176,7 @@ std::vector<CeilingEpisode> run_ceiling(const CeilingOptions& options, const Rea
   bool complete = true;
   {
     std::vector<std::jthread> workers;
+    workers.reserve(static_cast<std::size_t>(options.jobs));
     for (int i = 0; i < options.jobs; ++i) {
       workers.emplace_back(work);
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -26,6 +27,7 @@ struct Change {
 std::vector<Variant> vary(const std::string& base_text, const std::string& base_name,
                           const std::vector<Change>& changes) {
   std::vector<Variant> variants;
+  variants.reserve(changes.size());
   for (const auto& [name, says, settings] : changes) {
     variants.push_back({name, says, parse_config(base_text, base_name, settings)});
   }
@@ -63,9 +65,10 @@ std::vector<double> read_curve(const std::filesystem::path& file, const SeedRun&
     refuse(file, "not the learning curve of a run", run);
   }
   while (std::getline(lines, line) && !lines.eof()) {
-    std::size_t episode = 0;
-    double reward = 0.0;
-    if (std::sscanf(line.c_str(), "%zu,%lf,", &episode, &reward) != 2 || episode != rewards.size()) {
+    const std::string number = fmt::format("{},", rewards.size());
+    char* end = nullptr;
+    const double reward = line.starts_with(number) ? std::strtod(line.c_str() + number.size(), &end) : 0.0;
+    if (end == nullptr || *end != ',') {
       refuse(file, fmt::format("line {} is not that of episode {}", rewards.size() + 2, rewards.size()), run);
     }
     rewards.push_back(reward);

@@ -75,6 +75,7 @@ std::vector<Variant> short_variants() {
 TEST(Experiment, VariantsAreThePapers) {
   const auto variants = paper_variants("", "paper");
   std::vector<int> inputs;
+  inputs.reserve(variants.size());
   for (const Variant& variant : variants) {
     inputs.push_back(variant.config.shape.inputs);
   }

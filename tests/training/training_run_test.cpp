@@ -33,9 +33,9 @@ const std::vector<std::string> results = {"model.safetensors", "best.safetensors
 
 void expect_same_results(const TemporaryDirectory& directory, const std::string& a, const std::string& b) {
   for (const std::string& name : results) {
-    const std::string content = content_of(directory / (a + "/" + name));
+    const std::string content = content_of(directory / a / name);
     EXPECT_FALSE(content.empty()) << name;
-    EXPECT_EQ(content, content_of(directory / (b + "/" + name))) << name;
+    EXPECT_EQ(content, content_of(directory / b / name)) << name;
   }
   EXPECT_FALSE(std::filesystem::exists(directory / (b + "/checkpoint.safetensors")));
 }
@@ -95,7 +95,7 @@ std::string complaint_of(const std::filesystem::path& run, const Config& config,
   try {
     (void)train_into(run, config, seed, resume, go_on);
   } catch (const std::runtime_error& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message;
   }

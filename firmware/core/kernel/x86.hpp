@@ -178,7 +178,7 @@ struct Kernel {
   }
 
   static int pair_at(const std::int16_t* halves) {
-    int pair;
+    int pair = 0;
     __builtin_memcpy(&pair, halves, sizeof pair);
     return pair;
   }
@@ -285,7 +285,7 @@ struct InputScaler {
       const Quad second = __builtin_shufflevector(scaled, scaled, 4, 5, 6, 7);
       const QuadHalves halves = __builtin_ia32_packssdw128(first, second);
       const QuadHalves limit = QuadHalves{} - static_cast<short>(greatest_activation);
-      const QuadHalves stored = __builtin_ia32_pmaxsw128(halves, limit);
+      const QuadHalves stored = halves > limit ? halves : limit;
       __builtin_memcpy(to + i, &stored, sizeof stored);
     }
   }
