@@ -134,7 +134,7 @@ TEST(KickEnv, TheStateAtTheStartIsThePosesIndependent) {
 TEST(KickEnv, AMirroredTaskKnowsTheLeftOnly) {
   EnvConfig task;
   task.mirrored = true;
-  task.actions = {{.left_m_s = 2.0, .right_m_s = 1.0}, {.left_m_s = -1.0, .right_m_s = -1.5}};
+  task.actions = {{.left_m_s = 2.0, .right_m_s = 0.0}, {.left_m_s = -1.0, .right_m_s = -1.5}};
   KickEnv mirrored(task);
   task.mirrored = false;
   KickEnv plain(task);
