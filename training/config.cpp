@@ -251,6 +251,7 @@ std::vector<EnvConfig> read_environments(const Reader& reader) {
 void read_learner(const Reader& reader, LearnerConfig& learner) {
   reader.read("learner.gamma", learner.gamma, 0.0, 1.0);
   reader.read("learner.n_step", learner.n_step, 1, sil::kick_decisions);
+  reader.read("learner.cut_at_exploration", learner.cut_at_exploration);
   reader.read("learner.double_dqn", learner.double_dqn);
   reader.read("learner.huber", learner.huber);
   reader.read("learner.mirror", learner.mirror);
@@ -334,6 +335,7 @@ Config parse_config(std::string_view text, const std::string& file, const std::v
   reader.read("exploration.epsilon_start", config.exploration.epsilon_start, 0.0, 1.0);
   reader.read("exploration.epsilon_end", config.exploration.epsilon_end, 0.0, 1.0);
   reader.read("exploration.decay_episodes", config.exploration.decay_episodes, 1, 10'000'000);
+  reader.read("exploration.persistence", config.exploration.persistence, 0.0, 0.99);
   reader.read<Course>("exploration.schedule", config.exploration.schedule,
                       {{"linear", Course::linear}, {"exponential", Course::exponential}});
   return config;

@@ -25,6 +25,7 @@ struct RunConfig {
 struct LearnerConfig {
   double gamma = 0.0;
   int n_step = 0;
+  bool cut_at_exploration = false;
   bool double_dqn = false;
   bool huber = false;
   bool mirror = false;
@@ -52,6 +53,7 @@ struct ExplorationConfig {
   double epsilon_end = 0.0;
   int decay_episodes = 0;
   Course schedule = Course::linear;
+  double persistence = 0.0;
 };
 
 struct Config {

@@ -93,7 +93,7 @@ EpisodeRow Learner::play(KickEnv& env, int episode) {
   const std::int64_t steps_before = gradient_steps_;
   state_ = env.features();
   for (bool end = false; !end; ++row.steps) {
-    const int action = choose(state_, row.epsilon);
+    const int action = choose(state_, row.epsilon, row.steps == 0);
     const StepResult result = env.step(action);
     end = result.end;
     next_state_ = env.features();
@@ -112,20 +112,29 @@ EpisodeRow Learner::play(KickEnv& env, int episode) {
   return row;
 }
 
-int Learner::choose(const Features& state, double epsilon) {
-  if (choosing_.uniform() < epsilon) {
-    return static_cast<int>(choosing_.below(static_cast<std::uint64_t>(q_gradient_.rows())));
+// A random action may persist, within its episode.
+int Learner::choose(const Features& state, double epsilon, bool first) {
+  exploring_ = exploring_ && !first && exploration_.persistence > 0.0 &&
+               choosing_.uniform() < exploration_.persistence;
+  if (!exploring_) {
+    exploring_ = choosing_.uniform() < epsilon;
+    random_action_ =
+        exploring_ ? static_cast<int>(choosing_.below(static_cast<std::uint64_t>(q_gradient_.rows()))) : 0;
   }
-  return actor_.choose(online_, state);
+  return exploring_ ? random_action_ : actor_.choose(online_, state);
 }
 
 void Learner::remember(const Features& state, int action, double reward, const Features& next, bool end) {
-  n_step_.take(state, action, reward, next, end, [this](const Transition& transition) {
+  const auto push = [this](const Transition& transition) {
     const Eigen::Index place = replay_.push(transition);
     if (config_.prioritised) {
       priorities_.insert(static_cast<std::size_t>(place));
     }
-  });
+  };
+  if (config_.cut_at_exploration && exploring_) {
+    n_step_.cut(state, push);
+  }
+  n_step_.take(state, action, reward, next, end, push);
   ++decisions_;
 }
 

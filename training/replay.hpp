@@ -81,14 +81,27 @@ class NStep {
       transition.discount = end ? 0.0F : transition.discount * gamma_;
     }
     while (count_ == open_.size() || (end && count_ > 0)) {
-      open_[first_].next = next;
-      push(open_[first_]);
-      first_ = (first_ + 1) % open_.size();
-      --count_;
+      hand_over(next, push);
+    }
+  }
+
+  // Hands over all that is open, ended at this state.
+  template <class Push>
+  void cut(const Features& state, Push push) {
+    while (count_ > 0) {
+      hand_over(state, push);
     }
   }
 
  private:
+  template <class Push>
+  void hand_over(const Features& next, Push push) {
+    open_[first_].next = next;
+    push(open_[first_]);
+    first_ = (first_ + 1) % open_.size();
+    --count_;
+  }
+
   float gamma_;
   std::vector<Transition> open_;  // a ring, the oldest at first_
   std::size_t first_ = 0;
