@@ -78,18 +78,41 @@ template <std::size_t Rows, std::size_t Vectors>
   sums = {s0, s1, s2, s3};
 }
 
-// Two of a stream's words, and two words into a buffer: GCC 12 takes detours here, by way of vectors.
-struct Two {
-  std::int32_t first, second;
-};
-[[gnu::always_inline]] inline Two load_two(const std::int32_t*& from) {
-  std::int32_t first;
-  std::int32_t second;
-  asm volatile("ldrd %1, %2, [%0], #8" : "+r"(from), "=Te"(first), "=Te"(second));
-  return {first, second};
+// A row of four vectors; so do its activations.
+[[gnu::always_inline]] inline void multiply_held_row(const std::int16_t*& weights,
+                                                     const std::array<int16x8_t, block_vectors>& activations,
+                                                     std::int32_t& sum) {
+  asm volatile(
+      "vldmia %[weights]!, {d0-d7}\n\t"
+      "vmladava.s16 %[sum], q0, %q[a0]\n\t"
+      "vmladava.s16 %[sum], q1, %q[a1]\n\t"
+      "vmladava.s16 %[sum], q2, %q[a2]\n\t"
+      "vmladava.s16 %[sum], q3, %q[a3]"
+      : [weights] "+r"(weights), [sum] "+Te"(sum)
+      : [a0] "w"(activations[0]), [a1] "w"(activations[1]), [a2] "w"(activations[2]), [a3] "w"(activations[3])
+      : "d0", "d1", "d2", "d3", "d4", "d5", "d6", "d7");
 }
-[[gnu::always_inline]] inline void store_two(std::int32_t*& to, std::int32_t first, std::int32_t second) {
-  asm volatile("strd %1, %2, [%0], #8" : "+r"(to) : "r"(first), "r"(second) : "memory");
+
+// Four words of a stream, and four into a buffer, with one instruction each. VMLADAVA's sums are in even
+// registers.
+[[gnu::always_inline]] inline Sums load_four(const std::int32_t*& from) {
+  register std::int32_t s0 asm("r0");
+  register std::int32_t s1 asm("r2");
+  register std::int32_t s2 asm("r4");
+  register std::int32_t s3 asm("r6");
+  asm volatile("ldmia %[from]!, {r0, r2, r4, r6}"
+               : [from] "+r"(from), "=r"(s0), "=r"(s1), "=r"(s2), "=r"(s3));
+  return {s0, s1, s2, s3};
+}
+[[gnu::always_inline]] inline void store_four(std::int32_t*& to, const Sums& sums) {
+  register std::int32_t s0 asm("r0") = sums.s0;
+  register std::int32_t s1 asm("r2") = sums.s1;
+  register std::int32_t s2 asm("r4") = sums.s2;
+  register std::int32_t s3 asm("r6") = sums.s3;
+  asm volatile("stmia %[to]!, {r0, r2, r4, r6}"
+               : [to] "+r"(to)
+               : "r"(s0), "r"(s1), "r"(s2), "r"(s3)
+               : "memory");
 }
 
 template <std::size_t Rows, std::size_t Vectors>
@@ -108,18 +131,26 @@ template <std::size_t Rows, std::size_t Vectors>
 template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void layer_sums(const std::int16_t* weights, const std::int16_t* activations,
                                               const std::int32_t* biases, std::int32_t* to) {
-  const int16x8_t first = vld1q_s16(activations);
-  for (const std::int32_t* end = biases + Rows / group_rows * group_rows; biases != end;) {
-    const auto [b0, b1] = load_two(biases);
-    const auto [b2, b3] = load_two(biases);
-    Sums sums{b0, b1, b2, b3};
+  std::array<int16x8_t, block_vectors> held{};
+  if constexpr (Vectors == 1 || Vectors == block_vectors) {
+    for (std::size_t v = 0; v < Vectors; ++v) {
+      held[v] = vld1q_s16(activations + v * lanes);
+    }
+  }
+#pragma GCC unroll 4
+  for (std::size_t group = 0; group < Rows / group_rows; ++group) {
+    Sums sums = load_four(biases);
     if constexpr (Vectors == 1) {
-      multiply_short_rows(weights, first, sums);
+      multiply_short_rows(weights, held[0], sums);
+    } else if constexpr (Vectors == block_vectors) {
+      multiply_held_row(weights, held, sums.s0);
+      multiply_held_row(weights, held, sums.s1);
+      multiply_held_row(weights, held, sums.s2);
+      multiply_held_row(weights, held, sums.s3);
     } else {
       multiply_row_blocks<group_rows, Vectors>(weights, activations, sums);
     }
-    store_two(to, sums.s0, sums.s1);
-    store_two(to, sums.s2, sums.s3);
+    store_four(to, sums);
   }
   if constexpr (constexpr std::size_t rest = Rows % group_rows; rest != 0) {
     Sums sums{biases[0], rest > 1 ? biases[1] : 0, rest > 2 ? biases[2] : 0, 0};
@@ -136,6 +167,7 @@ template <int shift, std::size_t Count>
   constexpr int last_shift = std::min(shift, 16);
   const int16x8_t zero = vdupq_n_s16(0);
   int16x8_t stored = zero;
+#pragma GCC unroll 4
   for (std::size_t i = 0; i < Count; i += lanes) {
     int32x4x2_t pair = vld2q_s32(sums + i);
     if constexpr (shift > last_shift) {

@@ -79,7 +79,8 @@ struct Kernel {
   using Quad = typename Vectors::Quad;
   static constexpr const char* name = Vectors::name;
   static constexpr std::size_t lanes = sizeof(Words) / sizeof(int);
-  static constexpr std::size_t chunk_rows = 8 * lanes;  // whose sums stay in registers
+  // Whose sums stay in registers. Of a short layer fewer: the next one begins with the first that are done.
+  static constexpr std::size_t chunk_rows(std::size_t inputs) { return (pairs(inputs) <= 4 ? 2 : 8) * lanes; }
 
   static constexpr std::size_t pairs(std::size_t inputs) { return (inputs + 1) / 2; }
   static constexpr std::size_t rows(std::size_t outputs) { return round_up(outputs, 2 * lanes); }
@@ -102,15 +103,16 @@ struct Kernel {
 
   template <std::size_t Inputs, std::size_t Outputs>
   static constexpr HiddenLayer<Inputs, Outputs> pack_hidden(const Layer<Inputs, Outputs>& layer) {
+    constexpr std::size_t chunk = chunk_rows(Inputs);
     HiddenLayer<Inputs, Outputs> packed;
     const auto biases = rounded_biases(layer);
     for (std::size_t place = 0; place < rows(Outputs); ++place) {
       packed.biases[place] = row_at(place) < Outputs ? biases[row_at(place)] : 0;
     }
     std::size_t at = 0;
-    for (std::size_t first = 0; first < rows(Outputs); first += chunk_rows) {
+    for (std::size_t first = 0; first < rows(Outputs); first += chunk) {
       for (std::size_t pair = 0; pair < pairs(Inputs); ++pair) {
-        for (std::size_t place = first; place < std::min(first + chunk_rows, rows(Outputs)); ++place) {
+        for (std::size_t place = first; place < std::min(first + chunk, rows(Outputs)); ++place) {
           const std::size_t row = row_at(place);
           for (std::size_t i = 2 * pair; i < 2 * pair + 2; ++i) {
             packed.weights[at++] = static_cast<std::int16_t>(weight_or_zero(layer, row, i));
@@ -124,17 +126,21 @@ struct Kernel {
   template <int shift, std::size_t Inputs, std::size_t Outputs>
   [[gnu::always_inline]] static void hidden(const HiddenLayer<Inputs, Outputs>& layer,
                                             const Activations<Inputs>& in, Activations<Outputs>& out) {
-    finish_stores(in);  // or the compiler takes stored vectors apart, where a broadcasting load is to be
-    constexpr std::size_t whole = rows(Outputs) / chunk_rows;
-    for (std::size_t chunk = 0; chunk < whole; ++chunk) {
-      hidden_chunk<shift, chunk_rows, pairs(Inputs)>(
-          layer.weights.data() + chunk * chunk_rows * 2 * pairs(Inputs),
-          layer.biases.data() + chunk * chunk_rows, in.values.data(), out.values.data() + chunk * chunk_rows);
+    if constexpr (pairs(Inputs) > lanes) {
+      finish_stores(in);  // or the compiler takes stored vectors apart, where a broadcasting load is to be
     }
-    if constexpr (constexpr std::size_t rest = rows(Outputs) % chunk_rows; rest != 0) {
-      hidden_chunk<shift, rest, pairs(Inputs)>(layer.weights.data() + whole * chunk_rows * 2 * pairs(Inputs),
-                                               layer.biases.data() + whole * chunk_rows, in.values.data(),
-                                               out.values.data() + whole * chunk_rows);
+    constexpr std::size_t chunk = chunk_rows(Inputs);
+    constexpr std::size_t whole = rows(Outputs) / chunk * chunk;
+#pragma GCC unroll 4
+    for (std::size_t first = 0; first < whole; first += chunk) {
+      hidden_chunk<shift, chunk, pairs(Inputs)>(layer.weights.data() + first * 2 * pairs(Inputs),
+                                                layer.biases.data() + first, in.values.data(),
+                                                out.values.data() + first);
+    }
+    if constexpr (constexpr std::size_t rest = rows(Outputs) - whole; rest != 0) {
+      hidden_chunk<shift, rest, pairs(Inputs)>(layer.weights.data() + whole * 2 * pairs(Inputs),
+                                               layer.biases.data() + whole, in.values.data(),
+                                               out.values.data() + whole);
     }
   }
 
@@ -177,10 +183,15 @@ struct Kernel {
     return place / (2 * lanes) * (2 * lanes) + Vectors::row_of(place % (2 * lanes));
   }
 
-  static int pair_at(const std::int16_t* halves) {
-    int pair = 0;
-    __builtin_memcpy(&pair, halves, sizeof pair);
-    return pair;
+  // A short layer's activations are in a register still, and need not wait for the memory.
+  template <std::size_t Pairs>
+  [[gnu::always_inline]] static int pair_at(const std::int16_t* activations, std::size_t pair) {
+    if constexpr (Pairs <= lanes) {
+      return vector_at<Words>(activations)[pair];
+    }
+    int both = 0;
+    __builtin_memcpy(&both, activations + 2 * pair, sizeof both);
+    return both;
   }
 
   template <int shift, std::size_t Rows, std::size_t Pairs>
@@ -193,7 +204,7 @@ struct Kernel {
     (std::make_index_sequence<vectors>{});
 #pragma GCC unroll 32
     for (std::size_t pair = 0; pair < Pairs; ++pair) {
-      const Words both = Words{} + pair_at(activations + 2 * pair);
+      const Words both = Words{} + pair_at<Pairs>(activations, pair);
 #pragma GCC unroll 8
       for (std::size_t v = 0; v < vectors; ++v) {
         Vectors::multiply_add(sums[v], both, vector_at<Words>(weights + 2 * (pair * Rows + v * lanes)));
@@ -242,12 +253,14 @@ struct InputScaler {
   using UnsignedWide [[gnu::vector_size(32)]] = unsigned long long;
 
   static constexpr std::size_t padded = round_up(Inputs, lanes);
+  alignas(32) std::array<std::int32_t, padded> there{};  // all ones where there is an input
   alignas(32) std::array<std::int32_t, padded> least{}, greatest{}, multiplier{};
   alignas(32) std::array<std::int64_t, padded / 2> even_half{}, odd_half{}, even_shift{}, odd_shift{};
 
   constexpr explicit InputScaler(const std::array<InputScale, Inputs>& scales) {
     for (std::size_t i = 0; i < Inputs; ++i) {
       const int bits = relevant_bits(scales[i]);
+      there[i] = -1;
       greatest[i] = static_cast<std::int32_t>((std::int64_t{1} << bits) - 1);
       least[i] = -greatest[i] - 1;
       multiplier[i] = scales[i].multiplier;
@@ -261,36 +274,40 @@ struct InputScaler {
                        [](const InputScale& scale) { return scale.shift <= 32; });
   }
 
+  // Writes all columns of the activations.
   [[gnu::always_inline]] void scale(const std::array<std::int32_t, Inputs>& raw, std::int16_t* to) const {
-    alignas(32) std::array<std::int32_t, padded> from;
-    __builtin_memcpy(from.data(), raw.data(), sizeof raw);
-    __builtin_memset(from.data() + Inputs, 0, sizeof from - sizeof raw);
-#pragma GCC unroll 4
-    for (std::size_t i = 0; i < padded; i += lanes) {
-      const Words low = vector_at<Words>(least.data() + i);
-      const Words high = vector_at<Words>(greatest.data() + i);
-      const Words above = vector_at<Words>(from.data() + i);
-      const Words at_least_low = above > low ? above : low;
-      const Words in = at_least_low < high ? at_least_low : high;
-      const Words factor = vector_at<Words>(multiplier.data() + i);
-      const Wide even = product(in, factor) + vector_at<Wide>(even_half.data() + i / 2);
-      const Wide odd = product(upper(in), upper(factor)) + vector_at<Wide>(odd_half.data() + i / 2);
-      const auto even_word = reinterpret_cast<Words>(reinterpret_cast<UnsignedWide>(even) >>
-                                                     vector_at<UnsignedWide>(even_shift.data() + i / 2));
-      const auto odd_word = reinterpret_cast<Words>(odd << vector_at<Wide>(odd_shift.data() + i / 2));
-      const Words scaled = __builtin_shufflevector(even_word, odd_word, 0, 9, 2, 11, 4, 13, 6, 15);
-      using Quad = Avx2Vectors::Quad;
-      using QuadHalves [[gnu::vector_size(16)]] = short;
-      const Quad first = __builtin_shufflevector(scaled, scaled, 0, 1, 2, 3);
-      const Quad second = __builtin_shufflevector(scaled, scaled, 4, 5, 6, 7);
-      const QuadHalves halves = __builtin_ia32_packssdw128(first, second);
-      const QuadHalves limit = QuadHalves{} - static_cast<short>(greatest_activation);
-      const QuadHalves stored = halves > limit ? halves : limit;
+    using Halves = Avx2Vectors::Halves;
+#pragma GCC unroll 2
+    for (std::size_t i = 0; i < padded; i += 2 * lanes) {
+      const Words low = scaled(raw, i);
+      const Words high = i + lanes < padded ? scaled(raw, i + lanes) : Words{};
+      // The packing instruction works within 128-bit halves.
+      const auto packed = reinterpret_cast<Wide>(Avx2Vectors::narrow(low, high));
+      const auto halves = reinterpret_cast<Halves>(__builtin_shufflevector(packed, packed, 0, 2, 1, 3));
+      const Halves limit = Halves{} - static_cast<short>(greatest_activation);
+      const Halves stored = __builtin_ia32_pmaxsw256(halves, limit);
       __builtin_memcpy(to + i, &stored, sizeof stored);
     }
   }
 
  private:
+  // Eight of them, still in words.
+  [[gnu::always_inline]] Words scaled(const std::array<std::int32_t, Inputs>& raw, std::size_t i) const {
+    // A copy that fills up with zeros would be stored in pieces: no store is forwarded to a wider load.
+    const Words above =
+        __builtin_ia32_maskloadd256(&vector_at<Words>(raw.data() + i), vector_at<Words>(there.data() + i));
+    const Words low = vector_at<Words>(least.data() + i);
+    const Words high = vector_at<Words>(greatest.data() + i);
+    const Words at_least_low = above > low ? above : low;
+    const Words in = at_least_low < high ? at_least_low : high;
+    const Words factor = vector_at<Words>(multiplier.data() + i);
+    const Wide even = product(in, factor) + vector_at<Wide>(even_half.data() + i / 2);
+    const Wide odd = product(upper(in), upper(factor)) + vector_at<Wide>(odd_half.data() + i / 2);
+    const auto even_word = reinterpret_cast<Words>(reinterpret_cast<UnsignedWide>(even) >>
+                                                   vector_at<UnsignedWide>(even_shift.data() + i / 2));
+    const auto odd_word = reinterpret_cast<Words>(odd << vector_at<Wide>(odd_shift.data() + i / 2));
+    return __builtin_shufflevector(even_word, odd_word, 0, 9, 2, 11, 4, 13, 6, 15);
+  }
   static Wide product(Words a, Words b) {
     return __builtin_ia32_pmuldq256(a, b);
   }

@@ -109,9 +109,8 @@ Granted ask_for_real_time(const RealTimeSettings& settings) {
 }
 
 void stay_below(const RealTimeSettings& settings) {
-  const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  if (settings.cpu >= 0 && processors > 1) {
-    run_on(static_cast<int>((settings.cpu + 1) % processors));
+  if (settings.cpu >= 0) {
+    run_on(settings.cpu);
   }
   if (settings.policy != Policy::other && settings.priority > 1) {
     set_fifo(settings.priority - 1);
