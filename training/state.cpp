@@ -16,7 +16,7 @@ constexpr double field_unit_m = 4.0;  // about half the field's length
 constexpr double episode_unit = 40.0;
 
 // In the order of Element.
-constexpr std::array<ElementFacts, 20> facts = {{
+constexpr std::array<ElementFacts, 21> facts = {{
     {"ball_x", position_unit_m, um_per_m, 1.0F},
     {"ball_y", position_unit_m, um_per_m, -1.0F},
     {"robot_speed", speed_unit_m_s, mm_per_m, 1.0F},
@@ -26,6 +26,7 @@ constexpr std::array<ElementFacts, 20> facts = {{
     {"decisions_left", episode_unit, 1.0, 1.0F},
     {"crossing_time", crossing_time_limit_s, sixteenths_per_s, 1.0F},
     {"crossing_x", position_unit_m, um_per_m, 1.0F},
+    {"forward_gap", forward_gap_unit_m, um_per_m, 1.0F},
     {"field_robot_x", field_unit_m, 0.0, 0.0F},
     {"field_robot_y", field_unit_m, 0.0, 0.0F},
     {"field_robot_heading", angle_unit_rad, 0.0, 0.0F},
@@ -66,6 +67,8 @@ double value_of(Element element, const Sight& sight, sil::Random& dummies) {
       return crossing_of(rcs).time_s;
     case Element::crossing_x:
       return crossing_of(rcs).x_m;
+    case Element::forward_gap:
+      return forward_gap_m(rcs);
     case Element::field_robot_x:
       return field.robot.x_m;
     case Element::field_robot_y:
@@ -140,6 +143,15 @@ LineCrossing crossing_of(const RcsState& state) {
                                                               -crossing_time_limit_s, crossing_time_limit_s);
   const double x_m = state.ball_x_m + state.ball_vx_m_s * time_s;
   return {.time_s = time_s, .x_m = std::clamp(x_m, -crossing_x_limit_m, crossing_x_limit_m)};
+}
+
+double forward_gap_m(const RcsState& state) {
+  const LineCrossing crossing = crossing_of(state);
+  const double time_s = std::max(crossing.time_s, 0.0);
+  const double v = state.robot_speed_m_s;
+  const double speeding_s = std::clamp((2.55 - v) / 11.1, 0.0, time_s);
+  const double way_m = v * time_s + 11.1 * speeding_s * (time_s - 0.5 * speeding_s);
+  return std::clamp(crossing.x_m - way_m, -forward_gap_limit_m, forward_gap_limit_m);
 }
 
 const ElementFacts& facts_of(Element element) {

@@ -59,6 +59,11 @@ inline constexpr double crossing_x_limit_m = 4.0;
 
 [[nodiscard]] LineCrossing crossing_of(const RcsState& state);
 
+// How far the crossing is ahead of the robot when the ball gets there, if it drives forward from now on.
+inline constexpr double forward_gap_limit_m = 1.0;
+inline constexpr double forward_gap_unit_m = 0.5;
+[[nodiscard]] double forward_gap_m(const RcsState& state);
+
 // All that one decision knows.
 struct Sight {
   RcsState rcs;
@@ -77,6 +82,7 @@ enum class Element : std::uint8_t {
   decisions_left,
   crossing_time,
   crossing_x,
+  forward_gap,
   field_robot_x,
   field_robot_y,
   field_robot_heading,

@@ -20,11 +20,11 @@ import stack_usage  # noqa: E402
 MULTIPLY_ACCUMULATES = 6 * 64 + 64 * 64 + 64 * 3
 
 
-def build(cpu, policy, build_dir):
+def build(cpu, policy, build_dir, targets=("all",)):
     for command in (
         ["cmake", "-G", "Ninja", "-S", ROOT, "-B", build_dir, "-DCMAKE_BUILD_TYPE=Release", f"-DSTRIKER_CPU={cpu}",
          f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/firmware/ports/arm-none-eabi.cmake", f"-DSTRIKER_POLICY={policy}"],
-        ["cmake", "--build", build_dir],
+        ["cmake", "--build", build_dir, "--target", *targets],
     ):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:

@@ -1,7 +1,7 @@
 // The measuring image, for QEMU with semihosting and `-icount shift=0`: instructions of the network and of
 // `step`.
 //
-//   striker-bench [inputs N] [shapes 1] [plain N] [recording FILE] [ticks N] [search N] [seed N]
+//   striker-bench [inputs N] [plain N] [recording FILE] [ticks N] [search N] [seed N]
 //
 // Prints "name number" lines for tools/bench-kernel. Every count is exact, from the first instruction of the
 // counted function to its return, but those of the search, which are exact to a count of the timer.
@@ -108,15 +108,6 @@ Range count_inference(std::uint32_t inputs) {
   return range;
 }
 
-template <const auto& policy>
-void print_shape(const char* name) {
-  const Range range = count_inference<policy>(50);
-  console::print_line(name, range.least);
-  if (range.least != range.greatest) {
-    console::print_line("  but also", range.greatest);
-  }
-}
-
 // A copy of the controller takes each repetition: copying is counted on its own, and taken off.
 [[gnu::noinline]] std::uint32_t count_steps(const Controller& before, const Inputs& inputs, Outputs& outputs,
                                             std::uint32_t repetitions, bool steps) {
@@ -188,11 +179,6 @@ int main() {
     console::print_line("inference repetitions", exact_repetitions());
     console::print_line("inference min", range.least);
     console::print_line("inference max", range.greatest);
-  }
-  if (console::argument("shapes", 0) > 0) {
-    print_shape<synthetic_paper>("inference 6-64-64-3");
-    print_shape<synthetic_half>("inference 6-32-32-3");
-    print_shape<synthetic_wide>("inference 12-128-128-5");
   }
   if (const std::uint32_t inputs = console::argument("plain", 0); inputs > 0) {
     const Range range = count_inference<trained, kernel::Portable>(inputs);
