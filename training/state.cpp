@@ -10,13 +10,12 @@ namespace {
 
 constexpr double um_per_m = 1e6;
 constexpr double mm_per_m = 1e3;
-constexpr double sixteenths_per_s = 16e3;  // 1/16 ms
 constexpr double counts_per_rad = 32768.0 / angle_unit_rad;
 constexpr double field_unit_m = 4.0;  // about half the field's length
 constexpr double episode_unit = 40.0;
 
 // In the order of Element.
-constexpr std::array<ElementFacts, 21> facts = {{
+constexpr std::array<ElementFacts, 18> facts = {{
     {"ball_x", position_unit_m, um_per_m, 1.0F},
     {"ball_y", position_unit_m, um_per_m, -1.0F},
     {"robot_speed", speed_unit_m_s, mm_per_m, 1.0F},
@@ -24,9 +23,6 @@ constexpr std::array<ElementFacts, 21> facts = {{
     {"ball_vy", speed_unit_m_s, mm_per_m, -1.0F},
     {"ball_angle", angle_unit_rad, counts_per_rad, -1.0F},
     {"decisions_left", episode_unit, 1.0, 1.0F},
-    {"crossing_time", crossing_time_limit_s, sixteenths_per_s, 1.0F},
-    {"crossing_x", position_unit_m, um_per_m, 1.0F},
-    {"forward_gap", forward_gap_unit_m, um_per_m, 1.0F},
     {"field_robot_x", field_unit_m, 0.0, 0.0F},
     {"field_robot_y", field_unit_m, 0.0, 0.0F},
     {"field_robot_heading", angle_unit_rad, 0.0, 0.0F},
@@ -63,12 +59,6 @@ double value_of(Element element, const Sight& sight, sil::Random& dummies) {
       return rcs.ball_angle_rad;
     case Element::decisions_left:
       return sight.decisions_left;
-    case Element::crossing_time:
-      return crossing_of(rcs).time_s;
-    case Element::crossing_x:
-      return crossing_of(rcs).x_m;
-    case Element::forward_gap:
-      return forward_gap_m(rcs);
     case Element::field_robot_x:
       return field.robot.x_m;
     case Element::field_robot_y:
@@ -135,23 +125,6 @@ RcsState rcs_state(const Observation& observation, Equations equations) {
     state.ball_angle_rad = angle_rad;
   }
   return state;
-}
-
-LineCrossing crossing_of(const RcsState& state) {
-  const double time_s = state.ball_vy_m_s == 0.0 ? crossing_time_limit_s
-                                                 : std::clamp(-state.ball_y_m / state.ball_vy_m_s,
-                                                              -crossing_time_limit_s, crossing_time_limit_s);
-  const double x_m = state.ball_x_m + state.ball_vx_m_s * time_s;
-  return {.time_s = time_s, .x_m = std::clamp(x_m, -crossing_x_limit_m, crossing_x_limit_m)};
-}
-
-double forward_gap_m(const RcsState& state) {
-  const LineCrossing crossing = crossing_of(state);
-  const double time_s = std::max(crossing.time_s, 0.0);
-  const double v = state.robot_speed_m_s;
-  const double speeding_s = std::clamp((2.55 - v) / 11.1, 0.0, time_s);
-  const double way_m = v * time_s + 11.1 * speeding_s * (time_s - 0.5 * speeding_s);
-  return std::clamp(crossing.x_m - way_m, -forward_gap_limit_m, forward_gap_limit_m);
 }
 
 const ElementFacts& facts_of(Element element) {

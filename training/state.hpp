@@ -46,24 +46,6 @@ inline constexpr double rest_speed_m_s = 0.02;
 
 [[nodiscard]] double wrap_angle_rad(double angle_rad);  // into (-pi, pi]
 
-// Where the ball's straight line crosses the robot's, and how long the ball takes to get there at its present
-// speed (negative: how long ago it was there): the robot can only meet the ball on its own line. As the
-// firmware's (core/relative_state.hpp), both are cut to their limits; a ball that moves along the robot's
-// line never crosses it.
-struct LineCrossing {
-  double time_s = 0.0;  // -2 to 2
-  double x_m = 0.0;     // -4 to 4, along the heading
-};
-inline constexpr double crossing_time_limit_s = 2.0;
-inline constexpr double crossing_x_limit_m = 4.0;
-
-[[nodiscard]] LineCrossing crossing_of(const RcsState& state);
-
-// How far the crossing is ahead of the robot when the ball gets there, if it drives forward from now on.
-inline constexpr double forward_gap_limit_m = 1.0;
-inline constexpr double forward_gap_unit_m = 0.5;
-[[nodiscard]] double forward_gap_m(const RcsState& state);
-
 // All that one decision knows.
 struct Sight {
   RcsState rcs;
@@ -71,7 +53,7 @@ struct Sight {
   int decisions_left = 0;  // 40 at the first decision of an episode, 0 after its last
 };
 
-// The first nine are the controller's (core::StateElement, in its order); the rest is for experiments.
+// The first seven are the controller's (core::StateElement, in its order); the rest is for experiments.
 enum class Element : std::uint8_t {
   ball_x,
   ball_y,
@@ -80,9 +62,6 @@ enum class Element : std::uint8_t {
   ball_vy,
   ball_angle,
   decisions_left,
-  crossing_time,
-  crossing_x,
-  forward_gap,
   field_robot_x,
   field_robot_y,
   field_robot_heading,
@@ -100,7 +79,7 @@ enum class Element : std::uint8_t {
 struct ElementFacts {
   std::string_view name;
   double unit;  // SI: the circle on which the ball starts, the robot's steady speed, half a turn, ...
-  double raw_per_value;  // the firmware's (core/policy.hpp); 0: experiments only
+  double raw_per_value;  // um, mm/s, binary angle (2^16 is the full circle), decisions; 0: experiments only
   float mirror;          // factor of the value in a mirror along the heading; 0 if it has no mirror image
 };
 

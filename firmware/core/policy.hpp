@@ -28,10 +28,7 @@ enum class StateElement : std::uint8_t {
   ball_vy = 4,         // mm/s
   ball_angle = 5,      // of the ball's movement: binary angle, 2^16 is the full circle, in [-32768, 32767]
   decisions_left = 6,  // of the 40 that a kick has, counted down from the first one after arming, to 0
-  crossing_time = 7,   // 1/16 ms until the ball's line crosses the robot's at the ball's present speed
-  crossing_x = 8,      // um along the heading: where it does (both: relative_state.hpp)
 };
-inline constexpr auto last_element = StateElement::crossing_x;
 
 // One input of the network: an element as it was so many decisions ago. Before the first decision after
 // arming everything was as at the first.

@@ -1,7 +1,5 @@
 #include "core/relative_state.hpp"
 
-#include <algorithm>
-
 namespace striker::core {
 
 namespace {
@@ -19,18 +17,6 @@ constexpr bool at_rest(Vector velocity_mm_s) {
   return x * x + y * y < std::int64_t{rest_speed_mm_s} * rest_speed_mm_s;
 }
 
-// um / (mm/s) is ms. Places up to 134 m away fit; the vision frames tell of 24 m at most.
-void find_crossing(RelativeState& state) {
-  const auto [vx, vy] = state.ball_velocity_mm_s;
-  const std::int32_t time = vy == 0 ? crossing_time_limit_16th_ms
-                                    : std::clamp(-state.ball_um.y * 16 / vy, -crossing_time_limit_16th_ms,
-                                                 crossing_time_limit_16th_ms);
-  const std::int64_t way_um = (std::int64_t{vx} * time) >> 4;
-  state.crossing_time_16th_ms = time;
-  state.crossing_x_um = static_cast<std::int32_t>(
-      std::clamp<std::int64_t>(state.ball_um.x + way_um, -crossing_x_limit_um, crossing_x_limit_um));
-}
-
 }  // namespace
 
 RelativeState relative_state(const Estimate& estimate) {
@@ -45,7 +31,6 @@ RelativeState relative_state(const Estimate& estimate) {
   state.robot_speed_mm_s = estimate.robot_speed_mm_s;
   state.ball_velocity_mm_s = {drop_guard_bits(velocity.x), drop_guard_bits(velocity.y)};
   state.ball_angle = at_rest(estimate.ball_velocity_mm_s) ? BinaryAngle{0} : direction_of(velocity);
-  find_crossing(state);
   return state;
 }
 
@@ -65,10 +50,6 @@ std::int32_t element_of(const RelativeState& state, StateElement element) {
       return state.ball_angle;
     case StateElement::decisions_left:
       return state.decisions_left;
-    case StateElement::crossing_time:
-      return state.crossing_time_16th_ms;
-    case StateElement::crossing_x:
-      return state.crossing_x_um;
   }
   return 0;
 }

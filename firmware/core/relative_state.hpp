@@ -21,14 +21,7 @@ struct RelativeState {
   Vector ball_velocity_mm_s;
   BinaryAngle ball_angle = 0;
   std::int32_t decisions_left = 0;  // set by the controller: it counts the decisions
-  // Where the ball's straight line crosses the robot's, and when, as if neither ball nor clock slowed down:
-  // the robot can only meet the ball on its own line. Both are cut to their limits; a ball that moves along
-  // the robot's line never crosses it.
-  std::int32_t crossing_time_16th_ms = 0;  // negative: so long ago
-  std::int32_t crossing_x_um = 0;
 };
-inline constexpr std::int32_t crossing_time_limit_16th_ms = 2'000 * 16;
-inline constexpr std::int32_t crossing_x_limit_um = 4'000'000;
 
 [[nodiscard]] RelativeState relative_state(const Estimate& estimate);
 

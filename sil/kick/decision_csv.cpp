@@ -12,7 +12,7 @@ namespace {
 
 // In the order of core::StateElement.
 constexpr std::array element_names = {"ball_x_um",    "ball_y_um",  "robot_speed_mm_s", "ball_vx_mm_s",
-                                      "ball_vy_mm_s", "ball_angle", "decisions_left", "crossing_time_16th_ms", "crossing_x_um"};
+                                      "ball_vy_mm_s", "ball_angle", "decisions_left"};
 
 }  // namespace
 

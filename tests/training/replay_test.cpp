@@ -61,6 +61,31 @@ TEST(NStep, ReturnsAreTheirDefinition) {
   }
 }
 
+// A cut ends every open sum where it is made, and what follows begins anew.
+TEST(NStep, ACutEndsTheSums) {
+  constexpr double gamma = 0.9;
+  constexpr int length = 12;
+  constexpr int cut_at = 7;
+  NStep n_step(5, gamma, inputs);
+  ReplayBuffer replay(inputs, 100);
+  const auto push = [&replay](const Transition& transition) { replay.push(transition); };
+  for (int t = 0; t < length; ++t) {
+    if (t == cut_at) {
+      n_step.cut(numbered(t), push);
+      ASSERT_EQ(replay.size(), t);
+    }
+    n_step.take(numbered(t), t % 3, 1.0, numbered(t + 1), t + 1 == length, push);
+  }
+  ASSERT_EQ(replay.size(), length);
+  for (int t = 0; t < length; ++t) {
+    const int end = std::min(t + 5, t < cut_at ? cut_at : length);
+    EXPECT_EQ(replay.state(t), numbered(t));
+    EXPECT_EQ(replay.next(t), numbered(end));
+    EXPECT_NEAR(replay.reward(t), (1.0 - std::pow(gamma, end - t)) / (1.0 - gamma), 1e-5);
+    EXPECT_NEAR(replay.discount(t), end == length ? 0.0 : std::pow(gamma, end - t), 1e-6);
+  }
+}
+
 // Places come as often as their priorities say; what was never inserted never comes.
 TEST(Priorities, DrawInProportion) {
   constexpr double alpha = 0.5;

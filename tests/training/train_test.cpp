@@ -42,6 +42,7 @@ TEST(Train, EveryOptionMatters) {
   EXPECT_TRUE(differs([](Config& c) { c.shape.dueling = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.gamma = 0.9; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.n_step = 1; }));
+  EXPECT_TRUE(differs([](Config& c) { c.learner.cut_at_exploration = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.double_dqn = false; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.huber = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.mirror = false; }));
@@ -58,6 +59,7 @@ TEST(Train, EveryOptionMatters) {
   EXPECT_TRUE(differs([](Config& c) { c.optimiser.averaging = 0.99; }));
   EXPECT_TRUE(differs([](Config& c) { c.exploration.epsilon_start = 0.5; }));
   EXPECT_TRUE(differs([](Config& c) { c.exploration.decay_episodes = 30; }));
+  EXPECT_TRUE(differs([](Config& c) { c.exploration.persistence = 0.5; }));
   EXPECT_TRUE(differs([](Config& c) { c.environments.pop_back(); }));
   EXPECT_TRUE(differs([](Config& c) { c.environments[0].equations = Equations::printed; }));
 }

@@ -27,7 +27,8 @@ struct Granted {
 // and the stack touched; for the machine, while the process lives: no deep sleep (/dev/cpu_dma_latency).
 [[nodiscard]] Granted ask_for_real_time(const RealTimeSettings& settings);
 
-// Best effort for a helper thread: just below the loop's priority, and not on its processor.
+// Best effort for a helper thread: just below the loop's priority, and on its processor. (Two processors that
+// wake in every tick keep each other, and on a virtual machine its host, from being on time.)
 void stay_below(const RealTimeSettings& settings);
 
 }  // namespace striker::linux_port
