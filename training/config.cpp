@@ -335,7 +335,6 @@ Config parse_config(std::string_view text, const std::string& file, const std::v
   reader.read("exploration.epsilon_start", config.exploration.epsilon_start, 0.0, 1.0);
   reader.read("exploration.epsilon_end", config.exploration.epsilon_end, 0.0, 1.0);
   reader.read("exploration.decay_episodes", config.exploration.decay_episodes, 1, 10'000'000);
-  reader.read("exploration.persistence", config.exploration.persistence, 0.0, 0.99);
   reader.read<Course>("exploration.schedule", config.exploration.schedule,
                       {{"linear", Course::linear}, {"exponential", Course::exponential}});
   return config;

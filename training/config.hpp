@@ -53,7 +53,6 @@ struct ExplorationConfig {
   double epsilon_end = 0.0;
   int decay_episodes = 0;
   Course schedule = Course::linear;
-  double persistence = 0.0;
 };
 
 struct Config {

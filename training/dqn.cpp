@@ -93,7 +93,7 @@ EpisodeRow Learner::play(KickEnv& env, int episode) {
   const std::int64_t steps_before = gradient_steps_;
   state_ = env.features();
   for (bool end = false; !end; ++row.steps) {
-    const int action = choose(state_, row.epsilon, row.steps == 0);
+    const int action = choose(state_, row.epsilon);
     const StepResult result = env.step(action);
     end = result.end;
     next_state_ = env.features();
@@ -112,16 +112,12 @@ EpisodeRow Learner::play(KickEnv& env, int episode) {
   return row;
 }
 
-// A random action may persist, within its episode.
-int Learner::choose(const Features& state, double epsilon, bool first) {
-  exploring_ = exploring_ && !first && exploration_.persistence > 0.0 &&
-               choosing_.uniform() < exploration_.persistence;
-  if (!exploring_) {
-    exploring_ = choosing_.uniform() < epsilon;
-    random_action_ =
-        exploring_ ? static_cast<int>(choosing_.below(static_cast<std::uint64_t>(q_gradient_.rows()))) : 0;
+int Learner::choose(const Features& state, double epsilon) {
+  exploring_ = choosing_.uniform() < epsilon;
+  if (exploring_) {
+    return static_cast<int>(choosing_.below(static_cast<std::uint64_t>(q_gradient_.rows())));
   }
-  return exploring_ ? random_action_ : actor_.choose(online_, state);
+  return actor_.choose(online_, state);
 }
 
 void Learner::remember(const Features& state, int action, double reward, const Features& next, bool end) {

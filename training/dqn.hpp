@@ -52,7 +52,7 @@ class Learner {
   void restore(const SafeTensors& checkpoint);
 
  private:
-  int choose(const Features& state, double epsilon, bool first);
+  int choose(const Features& state, double epsilon);
   [[nodiscard]] bool warm() const;
   void sample();
   double differentiate(EpisodeRow& row);
@@ -75,7 +75,6 @@ class Learner {
   NStep n_step_;
   sil::Random choosing_;
   bool exploring_ = false;  // the last choice was random
-  int random_action_ = 0;
   sil::Random sampling_;
   std::int64_t decisions_ = 0;
   std::int64_t gradient_steps_ = 0;

@@ -59,7 +59,6 @@ TEST(Train, EveryOptionMatters) {
   EXPECT_TRUE(differs([](Config& c) { c.optimiser.averaging = 0.99; }));
   EXPECT_TRUE(differs([](Config& c) { c.exploration.epsilon_start = 0.5; }));
   EXPECT_TRUE(differs([](Config& c) { c.exploration.decay_episodes = 30; }));
-  EXPECT_TRUE(differs([](Config& c) { c.exploration.persistence = 0.5; }));
   EXPECT_TRUE(differs([](Config& c) { c.environments.pop_back(); }));
   EXPECT_TRUE(differs([](Config& c) { c.environments[0].equations = Equations::printed; }));
 }
