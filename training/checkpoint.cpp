@@ -126,6 +126,7 @@ void Learner::save(SafeTensors& checkpoint) const {
 void Learner::restore(const SafeTensors& checkpoint) {
   const Eigen::Index size = online_.values.size();
   online_.values = matrix(checkpoint, "online", size, 1);
+  round_online();
   target_.values = matrix(checkpoint, "target", size, 1);
   average_.values = matrix(checkpoint, "average", size, 1);
   adam_.mean = matrix(checkpoint, "adam.mean", size, 1);

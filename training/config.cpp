@@ -261,6 +261,7 @@ void read_learner(const Reader& reader, LearnerConfig& learner) {
   reader.read("learner.target_period", learner.target_period, 1, 1'000'000);
   reader.read("learner.target_rate", learner.target_rate, 1e-6, 1.0);
   reader.read("learner.gradient_steps", learner.gradient_steps, 0, 100);
+  reader.read("learner.int8_weights", learner.int8_weights);
   reader.read("learner.clip_norm", learner.clip_norm, 0.0, 1e6);
   reader.read("learner.prioritised", learner.prioritised);
   reader.read("learner.priority_exponent", learner.priority_exponent, 0.0, 1.0);

@@ -36,6 +36,7 @@ struct LearnerConfig {
   double target_rate = 0.0;
   int gradient_steps = 0;  // a decision
   double clip_norm = 0.0;
+  bool int8_weights = false;
   bool prioritised = false;
   double priority_exponent = 0.0;
   double priority_correction = 0.0;

@@ -52,6 +52,7 @@ Learner::Learner(const Config& config, std::uint64_t seed)
       exploration_(config.exploration),
       episodes_(config.run.episodes),
       online_(initial_parameters(config.shape, seed)),
+      rounded_(online_),
       target_(online_),
       average_(online_),
       adam_(online_.values.size()),
@@ -79,6 +80,7 @@ Learner::Learner(const Config& config, std::uint64_t seed)
   for (int action = 0; action < config.shape.actions; ++action) {
     mirrored_actions_.push_back(mirrored_action(config.environments.front().actions, action));
   }
+  round_online();
 }
 
 // The contact ends the episode (unless the configuration lets it go on), and so does decision 40: the learner
@@ -117,7 +119,7 @@ int Learner::choose(const Features& state, double epsilon) {
   if (exploring_) {
     return static_cast<int>(choosing_.below(static_cast<std::uint64_t>(q_gradient_.rows())));
   }
-  return actor_.choose(online_, state);
+  return actor_.choose(played(), state);
 }
 
 void Learner::remember(const Features& state, int action, double reward, const Features& next, bool end) {
@@ -142,13 +144,14 @@ bool Learner::warm() const {
 void Learner::learn(EpisodeRow& row) {
   sample();
   row.loss += differentiate(row);
-  backward(online_, states_, pass_, q_gradient_, gradient_);
+  backward(played(), states_, pass_, q_gradient_, gradient_);
   if (config_.clip_norm > 0.0) {
     const float norm = gradient_.norm();
     const auto limit = static_cast<float>(config_.clip_norm);
     gradient_ *= norm > limit ? limit / norm : 1.0F;
   }
   adam_.step(online_.values, gradient_, row.learning_rate);
+  round_online();
   ++gradient_steps_;
   if (config_.prioritised) {
     update_priorities();
@@ -182,9 +185,9 @@ void Learner::sample() {
 double Learner::differentiate(EpisodeRow& row) {
   forward(target_, next_states_, next_pass_);
   if (config_.double_dqn) {
-    forward(online_, next_states_, choosing_pass_);
+    forward(played(), next_states_, choosing_pass_);
   }
-  forward(online_, states_, pass_);
+  forward(played(), states_, pass_);
   q_gradient_.setZero();
   double loss = 0.0;
   double error_sum = 0.0;
@@ -234,13 +237,19 @@ void Learner::update_priorities() {
   }
 }
 
+void Learner::round_online() {
+  if (config_.int8_weights) {
+    round_to_int8(online_, rounded_);
+  }
+}
+
 // The target network and the average follow the online network.
 void Learner::follow() {
   if (gradient_steps_ % config_.target_period == 0) {
     if (config_.target_rate == 1.0) {
-      target_.values = online_.values;
+      target_.values = played().values;
     } else {
-      target_.values += static_cast<float>(config_.target_rate) * (online_.values - target_.values);
+      target_.values += static_cast<float>(config_.target_rate) * (played().values - target_.values);
     }
   }
   if (optimiser_.averaging > 0.0) {
@@ -249,7 +258,11 @@ void Learner::follow() {
 }
 
 Parameters Learner::result() const {
-  return folded(optimiser_.averaging > 0.0 ? average_ : online_);
+  Parameters result = optimiser_.averaging > 0.0 ? average_ : online_;
+  if (config_.int8_weights) {
+    round_to_int8(Parameters(result), result);
+  }
+  return folded(result);
 }
 
 }  // namespace striker::training

@@ -60,6 +60,9 @@ class Learner {
   void weigh_samples();
   void update_priorities();
   void follow();
+  void round_online();
+  // The online network as it plays and is differentiated.
+  [[nodiscard]] const Parameters& played() const { return config_.int8_weights ? rounded_ : online_; }
 
   LearnerConfig config_;
   OptimiserConfig optimiser_;
@@ -67,6 +70,7 @@ class Learner {
   int episodes_;
 
   Parameters online_;
+  Parameters rounded_;
   Parameters target_;
   Parameters average_;
   Adam adam_;

@@ -20,6 +20,7 @@ constexpr std::uint64_t calibration_stream = 104;
 constexpr int calibration_plays = 150;
 constexpr int validation_plays = 150;
 constexpr std::size_t golden_count = 16;
+constexpr int reward_episodes = 500;
 constexpr std::size_t greatest_firmware_inputs = 32;  // core::greatest_inputs
 
 // The states before contact of `count` episodes each of greedy and of random play, beginning with `first`.
@@ -133,6 +134,7 @@ Export export_model(const Model& model, const EnvConfig& task) {
   exported.calibration_states = calibration.size();
   exported.quantised = quantise(parameters, task.inputs, calibration);
   exported.agreement = compare(parameters, task.inputs, exported.quantised.network, validation);
+  exported.reward = reward_difference(parameters, exported.quantised.network, task, reward_episodes);
 
   ExportedPolicy& policy = exported.policy;
   const auto configuration = model.metadata.find("configuration");
@@ -192,6 +194,10 @@ std::string report_of(const Export& exported, const Model& model) {
   report["clear_states"] = exported.agreement.clear_states;
   report["clear_agreement"] = exported.agreement.clear_agreement;
   report["mean_regret"] = exported.agreement.mean_regret;
+  report["reward"] = {{"episodes", exported.reward.episodes},
+                      {"float_mean", exported.reward.float_mean},
+                      {"integer_mean", exported.reward.integer_mean},
+                      {"standard_error", exported.reward.standard_error}};
   return report.dump(2) + "\n";
 }
 

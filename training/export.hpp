@@ -8,6 +8,7 @@
 #include "export_header.hpp"
 #include "model.hpp"
 #include "quantise.hpp"
+#include "reward_difference.hpp"
 
 namespace striker::training {
 
@@ -16,6 +17,7 @@ struct Export {
   Quantised quantised;
   Agreement agreement;  // of the integer network with the float one, on states that calibration did not see
   std::size_t calibration_states = 0;
+  RewardDifference reward;
 };
 
 // Plays episodes that neither training nor evaluation meets, greedily and at random, for calibration states

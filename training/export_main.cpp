@@ -35,6 +35,12 @@ int export_to(const Options& options) {
   fmt::print("against float, {} states: agreement {:.4f}, with a Q gap above {} {:.4f}, mean regret {:.5f}\n",
              agreement.states, agreement.agreement, clear_gap, agreement.clear_agreement,
              agreement.mean_regret);
+  const RewardDifference& reward = exported.reward;
+  fmt::print(
+      "in play, {} episodes of the servo plant: mean reward {:.3f}, float {:.3f}, difference {:+.4f} +- "
+      "{:.4f}\n",
+      reward.episodes, reward.integer_mean, reward.float_mean, reward.integer_mean - reward.float_mean,
+      1.96 * reward.standard_error);
   return 0;
 }
 

@@ -52,6 +52,16 @@ Eigen::Map<const Eigen::VectorXf> Parameters::biases(int layer) const {
   return {values.data() + place.biases, place.rows};
 }
 
+void round_to_int8(const Parameters& from, Parameters& to) {
+  to.values = from.values;
+  for (int layer = 0; layer < layer_count; ++layer) {
+    auto weights = to.weights(layer);
+    const double largest = std::max(static_cast<double>(weights.cwiseAbs().maxCoeff()), 1e-9);
+    const auto scale = static_cast<float>(std::exp2(std::floor(std::log2(127.0 / largest))));
+    weights.array() = (weights.array() * scale).rint() * (1.0F / scale);
+  }
+}
+
 Parameters folded(const Parameters& parameters) {
   Shape shape = parameters.shape();
   if (!shape.dueling) {

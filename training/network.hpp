@@ -58,6 +58,10 @@ class Parameters {
 // The same function without the dueling head, which folds into the last layer.
 [[nodiscard]] Parameters folded(const Parameters& parameters);
 
+// Each layer's weights rounded to multiples of a power of two, the least with which they fit -127 to 127: as
+// an export with int8 weights stores them, so that it loses nothing. Biases stay.
+void round_to_int8(const Parameters& from, Parameters& to);
+
 // The action with the greatest value; of equals, the first.
 template <class Values>
 [[nodiscard]] int greedy_action(const Values& q) {

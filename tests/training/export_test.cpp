@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -104,6 +105,9 @@ TEST(Export, TheReportSaysWhatWasFound) {
   EXPECT_EQ(report.at("layers").size(), 3U);
   EXPECT_GE(report.at("clear_agreement").get<double>(), 0.995);
   EXPECT_LE(report.at("mean_regret").get<double>(), 0.01);
+  const auto& reward = report.at("reward");
+  const double lost = reward.at("float_mean").get<double>() - reward.at("integer_mean").get<double>();
+  EXPECT_LE(std::abs(lost), 0.05 + 3.0 * reward.at("standard_error").get<double>());
   EXPECT_GT(report.at("validation_states").get<int>(), 1000);
 }
 

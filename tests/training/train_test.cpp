@@ -53,6 +53,7 @@ TEST(Train, EveryOptionMatters) {
   EXPECT_TRUE(differs([](Config& c) { c.learner.target_rate = 0.5; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.gradient_steps = 2; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.clip_norm = 0.1; }));
+  EXPECT_TRUE(differs([](Config& c) { c.learner.int8_weights = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.prioritised = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.optimiser.learning_rate = 5e-4; }));
   EXPECT_TRUE(differs([](Config& c) { c.optimiser.final_fraction = 0.1; }));

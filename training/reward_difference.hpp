@@ -1,0 +1,22 @@
+// What the integer network loses in reward against the float one, in the simulator's world.
+#pragma once
+
+#include "integer_network.hpp"
+#include "kick_env.hpp"
+#include "network.hpp"
+
+namespace striker::training {
+
+struct RewardDifference {
+  int episodes = 0;
+  double float_mean = 0.0;
+  double integer_mean = 0.0;
+  double standard_error = 0.0;  // of the mean difference, over paired episodes
+};
+
+// Both play the same episodes greedily among wheel bodies, on velocities as the firmware estimates them. No
+// training, calibration or evaluation meets these episodes.
+[[nodiscard]] RewardDifference reward_difference(const Parameters& parameters, const IntegerNetwork& network,
+                                                 EnvConfig task, int episodes);
+
+}  // namespace striker::training
