@@ -125,14 +125,14 @@ std::string noted(const Model& model, const std::string& key) {
 
 }  // namespace
 
-Export export_model(const Model& model, const EnvConfig& task) {
+Export export_model(const Model& model, const EnvConfig& task, WeightType weights) {
   require_firmware_serves(task);
   const Parameters& parameters = model.parameters;
   const std::vector<RawState> calibration = met_states(parameters, task, 0, calibration_plays);
   const std::vector<RawState> validation = met_states(parameters, task, calibration_plays, validation_plays);
   Export exported;
   exported.calibration_states = calibration.size();
-  exported.quantised = quantise(parameters, task.inputs, calibration);
+  exported.quantised = quantise(parameters, task.inputs, calibration, weights);
   exported.agreement = compare(parameters, task.inputs, exported.quantised.network, validation);
   exported.reward = reward_difference(parameters, exported.quantised.network, task, reward_episodes);
 
@@ -177,6 +177,7 @@ std::string report_of(const Export& exported, const Model& model) {
   report["identity"] = fmt::format("{:08x}", identity_of(exported.policy));
   report["model_identity"] = model_identity(model.parameters);
   report["configuration_hash"] = fmt::format("{:08x}", exported.policy.configuration_hash);
+  report["weights"] = name_of(exported.policy.network.weights);
   report["calibration_states"] = exported.calibration_states;
   report["input_exponent"] = exported.quantised.input_exponent;
   for (std::size_t l = 0; l < exported.quantised.layers.size(); ++l) {

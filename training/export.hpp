@@ -22,7 +22,8 @@ struct Export {
 
 // Plays episodes that neither training nor evaluation meets, greedily and at random, for calibration states
 // and golden vectors. Throws std::runtime_error for a model that the firmware could not serve.
-[[nodiscard]] Export export_model(const Model& model, const EnvConfig& task);
+[[nodiscard]] Export export_model(const Model& model, const EnvConfig& task,
+                                  WeightType weights = WeightType::int16);
 
 // The exported header: the policy below a comment that says what it is.
 [[nodiscard]] std::string header_of(const Export& exported, const Model& model);

@@ -12,9 +12,13 @@ namespace {
 
 constexpr std::size_t columns = 110;
 
-void add_layer(Fnv1a& hash, const IntegerLayer& layer) {
+void add_layer(Fnv1a& hash, const IntegerLayer& layer, WeightType type) {
   for (const std::int16_t weight : layer.weights) {
-    hash.add(weight);
+    if (type == WeightType::int8) {
+      hash.add(static_cast<std::int8_t>(weight));
+    } else {
+      hash.add(weight);
+    }
   }
   for (const std::int32_t bias : layer.biases) {
     hash.add(bias);
@@ -103,7 +107,7 @@ std::uint32_t identity_of(const ExportedPolicy& policy) {
     hash.add(static_cast<std::uint8_t>(scale.shift));
   }
   for (const IntegerLayer& layer : policy.network.layers) {
-    add_layer(hash, layer);
+    add_layer(hash, layer, policy.network.weights);
   }
   for (const SetPoint& set_point : policy.set_points) {
     hash.add(set_point.left_mm_s);
@@ -129,9 +133,10 @@ std::string header_text(const ExportedPolicy& policy, const std::vector<std::str
   }
   text += "#pragma once\n\n#include \"core/policy.hpp\"\n\nnamespace striker::policy {\n\n";
   text += "// clang-format off\n";
-  text += fmt::format("inline constexpr core::Policy<{}, {}, {}, {}, {}> trained = {{\n",
+  text += fmt::format("inline constexpr core::Policy<{}, {}, {}, {}, {}{}> trained = {{\n",
                       policy.network.input_scales.size(), layers.at(0).outputs(), layers.at(1).outputs(),
-                      layers.at(2).outputs(), policy.golden_vectors.size());
+                      layers.at(2).outputs(), policy.golden_vectors.size(),
+                      policy.network.weights == WeightType::int8 ? ", std::int8_t" : "");
   text += fmt::format("    .identity = 0x{:08X}U,\n    .configuration_hash = 0x{:08X}U,\n",
                       identity_of(policy), policy.configuration_hash);
   text += fmt::format("    .decision_period_ms = {},\n", policy.decision_period_ms);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string>
 
 #include "cli.hpp"
 #include "export.hpp"
@@ -16,17 +17,20 @@ struct Options {
   std::filesystem::path config;
   std::filesystem::path header;
   std::filesystem::path report;
+  std::string weights = "int16";
 };
 
 int export_to(const Options& options) {
   const Model model = load_model(options.model);
-  const Export exported = export_model(model, task_of(model, options.config));
+  const WeightType weights = options.weights == "int8" ? WeightType::int8 : WeightType::int16;
+  const Export exported = export_model(model, task_of(model, options.config), weights);
   write_file(options.header, header_of(exported, model));
   if (!options.report.empty()) {
     write_file(options.report, report_of(exported, model));
   }
   const Agreement& agreement = exported.agreement;
-  fmt::print("{}: identity {:08x}\n", options.header.string(), identity_of(exported.policy));
+  fmt::print("{}: identity {:08x}, {} weights\n", options.header.string(), identity_of(exported.policy),
+             options.weights);
   for (std::size_t l = 0; l < exported.quantised.layers.size(); ++l) {
     const LayerReport& layer = exported.quantised.layers[l];
     fmt::print("layer {}: range used {:.1f} %, headroom {:.2f} bits, mean error {:.5f}, greatest {:.4f}\n",
@@ -62,6 +66,9 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", options.header, "the header to write")->required();
   app.add_option("--config", options.config,
                  "the TOML file whose task it was trained for, if the model does not hold it");
+  app.add_option("--weights", options.weights, "int16, or int8: half the flash, less precise")
+      ->check(CLI::IsMember({"int16", "int8"}))
+      ->capture_default_str();
   app.add_option("--report", options.report, "write the figures to this JSON file");
   return run(app, argc, argv, [&options] { return export_to(options); });
 }

@@ -18,6 +18,9 @@ struct InputScale {
   int shift = 1;                // 1 to 40
 };
 
+// What the firmware stores a weight in.
+enum class WeightType { int16, int8 };
+
 struct IntegerLayer {
   std::size_t inputs = 0;
   std::vector<std::int16_t> weights;  // row by row: all inputs of neuron 0, of neuron 1, ...
@@ -32,7 +35,12 @@ struct IntegerLayer {
 struct IntegerNetwork {
   std::vector<InputScale> input_scales;
   std::vector<IntegerLayer> layers;
+  WeightType weights = WeightType::int16;
 };
+
+[[nodiscard]] constexpr const char* name_of(WeightType type) {
+  return type == WeightType::int8 ? "int8" : "int16";
+}
 
 struct IntegerAnswer {
   std::vector<std::int32_t> sums;  // the output layer's

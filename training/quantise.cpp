@@ -17,9 +17,13 @@ namespace {
 // Play may meet a little more than calibration did.
 constexpr double activation_margin = 1.1;
 constexpr int q_fraction_bits = 8;  // the output's sum >> shift is Q in 1/256
-constexpr double greatest_weight = 32767.0;
 constexpr double greatest_bias = 2147483647.0;
 constexpr int greatest_shift = 30;
+
+// The range is symmetric: without -2^7 and -2^15.
+double greatest_weight(WeightType type) {
+  return type == WeightType::int8 ? 127.0 : 32767.0;
+}
 
 struct FloatLayer {
   Eigen::MatrixXd weights;
@@ -94,7 +98,8 @@ Eigen::MatrixXd error_feedback(const Eigen::MatrixXd& inputs) {
 // Rounds the weights column by column; what each loses, the columns after it and the bias make good. Nothing
 // if a number does not fit its type.
 std::optional<IntegerLayer> integer_layer(const FloatLayer& layer, const Eigen::MatrixXd& feedback,
-                                          int weight_exponent, int input_exponent, int shift) {
+                                          double weight_limit, int weight_exponent, int input_exponent,
+                                          int shift) {
   const Eigen::Index columns = layer.weights.cols();
   Eigen::MatrixXd left(layer.weights.rows(), columns + 1);
   left << layer.weights, layer.biases;
@@ -106,7 +111,7 @@ std::optional<IntegerLayer> integer_layer(const FloatLayer& layer, const Eigen::
     left.rightCols(columns - column) -= lost * feedback.row(column).tail(columns - column);
   }
   const Eigen::VectorXd biases = (std::ldexp(1.0, input_exponent) * left.col(columns)).array().round();
-  if (rounded.cwiseAbs().maxCoeff() > greatest_weight || biases.cwiseAbs().maxCoeff() > greatest_bias) {
+  if (rounded.cwiseAbs().maxCoeff() > weight_limit || biases.cwiseAbs().maxCoeff() > greatest_bias) {
     return std::nullopt;
   }
   IntegerLayer integers;
@@ -127,16 +132,17 @@ int append_layer(IntegerNetwork& network, const FloatLayer& layer, const Eigen::
   const bool hidden = network.layers.size() + 1 < static_cast<std::size_t>(layer_count);
   const int least_shift = hidden ? 1 : 0;
   const Eigen::MatrixXd feedback = error_feedback(inputs);
-  int exponent = exponent_for(layer.weights.cwiseAbs().maxCoeff(), greatest_weight);
+  const double limit = greatest_weight(network.weights);
+  int exponent = exponent_for(layer.weights.cwiseAbs().maxCoeff(), limit);
   exponent = std::min(exponent, greatest_shift + output_exponent - input_exponent);
   for (;; --exponent) {
     const int shift = input_exponent + exponent - output_exponent;
     if (shift < least_shift) {
       throw std::runtime_error(
-          fmt::format("layer {} cannot be quantised: its weights are too large for 32-bit sums",
-                      network.layers.size() + 1));
+          fmt::format("layer {} cannot be quantised: its weights are too large for {} and 32-bit sums",
+                      network.layers.size() + 1, name_of(network.weights)));
     }
-    const auto integers = integer_layer(layer, feedback, exponent, input_exponent, shift);
+    const auto integers = integer_layer(layer, feedback, limit, exponent, input_exponent, shift);
     if (!integers) {
       continue;
     }
@@ -176,10 +182,11 @@ void measure(Quantised& result, const std::vector<Eigen::MatrixXd>& held, std::s
 }  // namespace
 
 Quantised quantise(const Parameters& parameters, const StateInputs& inputs,
-                   std::span<const RawState> calibration) {
+                   std::span<const RawState> calibration, WeightType weights) {
   const std::vector<FloatLayer> layers = layers_of(parameters);
   const std::vector<Eigen::MatrixXd> held = float_play(layers, inputs, calibration);
   Quantised result;
+  result.network.weights = weights;
   result.input_exponent = activation_exponent(held[0]);
   result.network.input_scales = input_scales(inputs, result.input_exponent);
   int input_exponent = result.input_exponent;

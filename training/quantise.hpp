@@ -2,9 +2,9 @@
 //
 // Scales are powers of two, one a layer. Activations: the greatest scale at which everything that was met in
 // play (the calibration states), with a margin, stays below 2^15. Weights: the greatest scale at which they
-// fit int16 and no input whatever can drive a sum out of 32 bits (the proof of policy_proof.hpp). That leaves
-// some weights few bits, so they are rounded with error feedback: the choices that plain rounding would
-// change become several times fewer.
+// fit their type and no input whatever can drive a sum out of 32 bits (the proof of policy_proof.hpp). That
+// leaves some weights few bits, so they are rounded with error feedback: the choices that plain rounding
+// would change become several times fewer.
 #pragma once
 
 #include <span>
@@ -32,6 +32,7 @@ struct Quantised {
 
 // Throws std::runtime_error if no scale fits (weights so large that the proof fails at every scale).
 [[nodiscard]] Quantised quantise(const Parameters& parameters, const StateInputs& inputs,
-                                 std::span<const RawState> calibration);
+                                 std::span<const RawState> calibration,
+                                 WeightType weights = WeightType::int16);
 
 }  // namespace striker::training

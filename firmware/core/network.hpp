@@ -1,4 +1,4 @@
-// The Q network: int16 weights and activations, 32-bit sums, ReLU, power-of-two rescaling, argmax.
+// The Q network: int16 or int8 weights, int16 activations, 32-bit sums, ReLU, power-of-two rescaling, argmax.
 //
 // The arithmetic is the specification in policy.hpp, to the bit, whatever the kernel. The header's proof
 // makes overflow impossible, so no sum is checked here. The instruction count does not depend on the input:
@@ -13,8 +13,8 @@
 //   sums(layer, in, out)             the output layer
 //   scale<policy>(raw, inputs)       all inputs at once, where a kernel has a better way than one by one
 //
-// kernel/chosen.hpp picks one for the target. Only the packed weights reach the image: the header's own rows
-// do not, as nothing refers to them at run time.
+// kernel/chosen.hpp picks one for the target and the weights' type. Only the packed weights reach the image:
+// the header's own rows do not, as nothing refers to them at run time.
 #pragma once
 
 #include <array>
@@ -35,8 +35,11 @@ struct QValues {
   std::uint8_t action;                     // of the greatest sum; of equals, the lowest
 };
 
+template <const auto& policy>
+using ChosenKernel = kernel::ChosenFor<typename std::remove_cvref_t<decltype(policy)>::Weight>;
+
 // A policy's weights in a kernel's order.
-template <const auto& policy, class Kernel = kernel::Chosen>
+template <const auto& policy, class Kernel = ChosenKernel<policy>>
 struct Packed {
   static constexpr auto layer1 = Kernel::pack_hidden(policy.layer1);
   static constexpr auto layer2 = Kernel::pack_hidden(policy.layer2);
@@ -46,7 +49,7 @@ struct Packed {
 };
 
 // `policy` is a constant with static storage, as an exported header holds.
-template <const auto& policy, class Kernel = kernel::Chosen>
+template <const auto& policy, class Kernel = ChosenKernel<policy>>
 [[nodiscard, gnu::noinline]] constexpr auto infer(
     const std::array<std::int32_t, std::remove_cvref_t<decltype(policy)>::inputs>& raw) {
   using Shape = std::remove_cvref_t<decltype(policy)>;

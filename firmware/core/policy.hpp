@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace striker::core {
 
@@ -52,9 +53,10 @@ struct InputScale {
   std::uint8_t shift;       // 1 to 40
 };
 
-template <std::size_t Inputs, std::size_t Outputs>
+template <std::size_t Inputs, std::size_t Outputs, class Weight = std::int16_t>
 struct Layer {
-  std::array<std::array<std::int16_t, Inputs>, Outputs> weights;
+  static_assert(std::is_same_v<Weight, std::int16_t> || std::is_same_v<Weight, std::int8_t>);
+  std::array<std::array<Weight, Inputs>, Outputs> weights;
   std::array<std::int32_t, Outputs> biases;
   std::uint8_t shift;  // hidden layers: 1 to 30. The output layer: sum >> shift is Q in 1/256
 };
@@ -72,9 +74,11 @@ struct GoldenVector {
   std::uint8_t action;
 };
 
+// The weights of all layers are int16, or int8 for half the flash.
 template <std::size_t Inputs, std::size_t Hidden1, std::size_t Hidden2, std::size_t Actions,
-          std::size_t Goldens>
+          std::size_t Goldens, class WeightType = std::int16_t>
 struct Policy {
+  using Weight = WeightType;
   static constexpr std::size_t inputs = Inputs;
   static constexpr std::size_t hidden1 = Hidden1;
   static constexpr std::size_t hidden2 = Hidden2;
@@ -89,9 +93,9 @@ struct Policy {
   // controller reads the situation as in a mirror along the heading (`changes_sign`), and swaps the wheels.
   bool mirrored;
   std::array<InputScale, Inputs> input_scales;
-  Layer<Inputs, Hidden1> layer1;
-  Layer<Hidden1, Hidden2> layer2;
-  Layer<Hidden2, Actions> output;
+  Layer<Inputs, Hidden1, Weight> layer1;
+  Layer<Hidden1, Hidden2, Weight> layer2;
+  Layer<Hidden2, Actions, Weight> output;
   std::array<WheelSetPoint, Actions> set_points;
   std::array<GoldenVector<Inputs, Actions>, Goldens> golden_vectors;
 };

@@ -17,8 +17,8 @@ inline constexpr std::int64_t sum_limit = (std::int64_t{1} << 31) - 1;
 inline constexpr std::int64_t activation_limit = 32767;
 
 // The greatest value |sum| + rounding that one neuron can reach, given the greatest |activation| it reads.
-template <std::size_t Inputs>
-constexpr std::int64_t worst_sum(const std::array<std::int16_t, Inputs>& weights, std::int32_t bias,
+template <std::size_t Inputs, class Weight>
+constexpr std::int64_t worst_sum(const std::array<Weight, Inputs>& weights, std::int32_t bias,
                                  std::int64_t rounding, const std::array<std::int64_t, Inputs>& greatest) {
   std::int64_t sum = (bias < 0 ? -std::int64_t{bias} : std::int64_t{bias}) + rounding;
   for (std::size_t i = 0; i < Inputs; ++i) {
@@ -33,8 +33,8 @@ struct LayerBounds {
   std::array<std::int64_t, Outputs> activations{};  // the greatest that each neuron can store
 };
 
-template <std::size_t Inputs, std::size_t Outputs>
-constexpr LayerBounds<Outputs> bound_layer(const Layer<Inputs, Outputs>& layer, bool hidden,
+template <std::size_t Inputs, std::size_t Outputs, class Weight>
+constexpr LayerBounds<Outputs> bound_layer(const Layer<Inputs, Outputs, Weight>& layer, bool hidden,
                                            const std::array<std::int64_t, Inputs>& greatest) {
   LayerBounds<Outputs> bounds;
   const std::int64_t rounding = hidden ? std::int64_t{1} << (layer.shift - 1) : 0;
@@ -64,10 +64,10 @@ class Fnv1a {
   std::uint32_t hash_ = 2166136261U;
 };
 
-template <std::size_t Inputs, std::size_t Outputs>
-constexpr void add_layer(Fnv1a& hash, const Layer<Inputs, Outputs>& layer) {
+template <std::size_t Inputs, std::size_t Outputs, class Weight>
+constexpr void add_layer(Fnv1a& hash, const Layer<Inputs, Outputs, Weight>& layer) {
   for (const auto& row : layer.weights) {
-    for (const std::int16_t weight : row) {
+    for (const Weight weight : row) {
       hash.add(weight);
     }
   }
@@ -80,8 +80,8 @@ constexpr void add_layer(Fnv1a& hash, const Layer<Inputs, Outputs>& layer) {
 }  // namespace proof
 
 // All shifts and multipliers are in the ranges that policy.hpp states.
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
-constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G>& policy) {
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G, class W>
+constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G, W>& policy) {
   const auto hidden_shift = [](std::uint8_t shift) { return shift >= 1 && shift <= 30; };
   bool valid = hidden_shift(policy.layer1.shift) && hidden_shift(policy.layer2.shift) &&
                policy.output.shift <= 30 && policy.decision_period_ms > 0;
@@ -93,8 +93,8 @@ constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G>& policy) {
 }
 
 // The controller can compute every input.
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
-constexpr bool inputs_are_known(const Policy<I, H1, H2, A, G>& policy) {
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G, class W>
+constexpr bool inputs_are_known(const Policy<I, H1, H2, A, G, W>& policy) {
   bool known = I <= greatest_inputs;
   for (const StateInput& input : policy.state) {
     known =
@@ -104,8 +104,8 @@ constexpr bool inputs_are_known(const Policy<I, H1, H2, A, G>& policy) {
 }
 
 // No input whatever can drive any neuron's 32-bit sum, rounding included, out of range.
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
-constexpr bool sums_fit(const Policy<I, H1, H2, A, G>& policy) {
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G, class W>
+constexpr bool sums_fit(const Policy<I, H1, H2, A, G, W>& policy) {
   std::array<std::int64_t, I> input_bounds{};
   input_bounds.fill(proof::activation_limit);
   const auto layer1 = proof::bound_layer(policy.layer1, true, input_bounds);
@@ -116,8 +116,8 @@ constexpr bool sums_fit(const Policy<I, H1, H2, A, G>& policy) {
 
 // The identity of everything that decides an action or proves one. Fields are hashed in the order of their
 // declaration, each as the little-endian bytes of its declared type.
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G>
-constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G>& policy) {
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G, class W>
+constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G, W>& policy) {
   proof::Fnv1a hash;
   hash.add(policy.configuration_hash);
   hash.add(policy.decision_period_ms);

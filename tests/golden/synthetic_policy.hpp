@@ -31,14 +31,15 @@ class SmallRandom {
   std::uint32_t state_;
 };
 
-template <std::size_t Inputs, std::size_t Outputs>
-constexpr void draw_layer(SmallRandom& random, Layer<Inputs, Outputs>& layer, std::uint8_t shift) {
+template <std::size_t Inputs, std::size_t Outputs, class Weight>
+constexpr void draw_layer(SmallRandom& random, Layer<Inputs, Outputs, Weight>& layer, std::uint8_t shift) {
   // sum |w| * 32767 + |bias| + rounding stays below 2^31 where sum |w| is at most 64000.
-  const auto limit = static_cast<std::int32_t>(std::min<std::size_t>(32767, 64000 / Inputs));
+  const auto limit =
+      static_cast<std::int32_t>(std::min<std::size_t>(std::numeric_limits<Weight>::max(), 64000 / Inputs));
   for (auto& row : layer.weights) {
-    for (std::int16_t& weight : row) {
-      weight = static_cast<std::int16_t>(random.bits() % 8 == 0 ? (random.bits() % 2 == 0 ? limit : -limit)
-                                                                : random.within(limit));
+    for (Weight& weight : row) {
+      weight = static_cast<Weight>(random.bits() % 8 == 0 ? (random.bits() % 2 == 0 ? limit : -limit)
+                                                          : random.within(limit));
     }
   }
   for (std::int32_t& bias : layer.biases) {
@@ -47,10 +48,10 @@ constexpr void draw_layer(SmallRandom& random, Layer<Inputs, Outputs>& layer, st
   layer.shift = shift;
 }
 
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A>
-constexpr Policy<I, H1, H2, A, 1> synthetic_policy(std::uint32_t seed) {
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, class Weight = std::int16_t>
+constexpr Policy<I, H1, H2, A, 1, Weight> synthetic_policy(std::uint32_t seed) {
   SmallRandom random(seed);
-  Policy<I, H1, H2, A, 1> policy{};
+  Policy<I, H1, H2, A, 1, Weight> policy{};
   for (InputScale& scale : policy.input_scales) {
     scale.multiplier = static_cast<std::int32_t>(1U << (random.bits() % 21));
     scale.multiplier -=
@@ -87,5 +88,11 @@ inline constexpr auto synthetic_rest = synthetic_policy<9, 38, 27, 6>(3);
 inline constexpr auto synthetic_half = synthetic_policy<6, 32, 32, 3>(4);
 inline constexpr auto synthetic_paper = synthetic_policy<6, 64, 64, 3>(5);
 inline constexpr auto synthetic_wide = synthetic_policy<12, 128, 128, 5>(6);
+
+inline constexpr auto synthetic_bytes_smallest = synthetic_policy<1, 1, 1, 2, std::int8_t>(7);
+inline constexpr auto synthetic_bytes_odd = synthetic_policy<7, 13, 11, 5, std::int8_t>(8);
+inline constexpr auto synthetic_bytes_rest = synthetic_policy<9, 38, 27, 6, std::int8_t>(9);
+inline constexpr auto synthetic_bytes_paper = synthetic_policy<6, 64, 64, 3, std::int8_t>(10);
+inline constexpr auto synthetic_bytes_wide = synthetic_policy<12, 128, 128, 5, std::int8_t>(11);
 
 }  // namespace striker::core

@@ -44,7 +44,7 @@ def holds(cpu, shape, header, build_dir):
     print(f"{cpu}, {shape}")
     measured = measure(cpu, header, build_dir, 200)
     least, greatest = measured["inference min"], measured["inference max"]
-    limit = image_test.inference_limit(cpu, measured["multiply-accumulates"])[0]
+    limit = image_test.inference_limit(cpu, measured["multiply-accumulates"], header)[0]
     good = image_test.expect(least == greatest, f"{least} to {greatest} instructions, whatever the input")
     return image_test.expect(greatest <= limit, f"{greatest} instructions, of {limit}") and good
 

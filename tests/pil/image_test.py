@@ -35,14 +35,16 @@ def image(build_dir, name):
     return os.path.join(build_dir, "bin", f"striker-{name}.elf")
 
 
-def inference_limit(cpu, macs):
+def inference_limit(cpu, macs, policy):
     """limits.json's, or in proportion for another network."""
     with open(os.path.join(HERE, "limits.json"), encoding="utf-8") as text:
         limits = json.load(text)[cpu]
-    if macs == MULTIPLY_ACCUMULATES:
-        return limits["inference"], limits["step"]
-    scaled = limits["inference"] * macs * 5 // (MULTIPLY_ACCUMULATES * 4)
-    return scaled, limits["step"] + max(0, scaled - limits["inference"])
+    with open(policy, encoding="utf-8") as text:
+        int8 = "std::int8_t> trained" in text.read()
+    inference = limits["inference_int8" if int8 else "inference"]
+    if macs != MULTIPLY_ACCUMULATES:
+        inference = inference * macs * 5 // (MULTIPLY_ACCUMULATES * 4)
+    return inference, limits["step"] + max(0, inference - limits["inference"])
 
 
 # A heap, floating point, or exceptions.
@@ -60,7 +62,7 @@ def main():
     parser.add_argument("--cpu", required=True, choices=qemu_image.BOARDS)
     parser.add_argument("--policy", required=True)
     parser.add_argument("--host", required=True, help="the check program, built for the host")
-    parser.add_argument("--recording", required=True)
+    parser.add_argument("--recording", help="a run of the simulator with this policy")
     parser.add_argument("--build-dir", required=True)
     parser.add_argument("--inputs", type=int, default=200)
     parser.add_argument("--search", type=int, default=20000)
@@ -69,7 +71,7 @@ def main():
     build(cpu, arguments.policy, arguments.build_dir)
     good = True
     try:
-        words = ["recording", arguments.recording]
+        words = ["recording", arguments.recording] if arguments.recording else []
         host = subprocess.run([arguments.host] + words, capture_output=True, text=True, check=True).stdout
         target = qemu_image.run(cpu, image(arguments.build_dir, "check"), words)
         print(target, end="")
@@ -79,7 +81,7 @@ def main():
             cpu, image(arguments.build_dir, "bench"),
             ["inputs", arguments.inputs, "search", arguments.search, "seed", 2]))
         least, greatest = measured["inference min"], measured["inference max"]
-        limit, step_limit = inference_limit(cpu, measured["multiply-accumulates"])
+        limit, step_limit = inference_limit(cpu, measured["multiply-accumulates"], arguments.policy)
         good &= expect(least == greatest, f"{least} to {greatest} instructions an inference, whatever the input")
         good &= expect(greatest <= limit, f"{greatest} instructions an inference, of {limit}")
         longest = measured["search max"]

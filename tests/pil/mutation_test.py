@@ -67,6 +67,8 @@ MUTATIONS = (
     ("two weights change places on the Cortex-M4", "firmware/core/kernel/dsp.hpp",
      r"half_words\(weight_or_zero\(layer, row, 2 \* p \+ 1\), layer\.weights\[row\]\[2 \* p\]\)",
      "half_words(layer.weights[row][2 * p], weight_or_zero(layer, row, 2 * p + 1))", image("cortex-m4")),
+    ("two rows of int8 weights change places on the Cortex-M4", "firmware/core/kernel/dsp_bytes.hpp",
+     r"byte\(0, 0\) \| byte\(1, 0\)", "byte(1, 0) | byte(0, 0)", image("cortex-m4")),
 )
 
 

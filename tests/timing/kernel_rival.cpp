@@ -26,7 +26,8 @@ struct FloatLayer {
   Eigen::Matrix<float, Outputs, Inputs> weights;
   Eigen::Matrix<float, Outputs, 1> biases;
 
-  explicit FloatLayer(const Layer<Inputs, Outputs>& layer) {
+  template <class Weight>
+  explicit FloatLayer(const Layer<Inputs, Outputs, Weight>& layer) {
     for (std::size_t row = 0; row < Outputs; ++row) {
       for (std::size_t column = 0; column < Inputs; ++column) {
         weights(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =

@@ -67,7 +67,7 @@ TEST_F(CommandLine, HelpNamesEveryOption) {
                              "--position-cell", "--speed-cell", "--json", "--csv"}) {
     EXPECT_NE(help(STRIKER_CEILING).find(option), std::string::npos) << option;
   }
-  for (const char* option : {"MODEL", "--output", "--report"}) {
+  for (const char* option : {"MODEL", "--output", "--weights", "--report"}) {
     EXPECT_NE(help(STRIKER_EXPORT).find(option), std::string::npos) << option;
   }
   EXPECT_EQ(run(fmt::format("{} --help", STRIKER_TRAIN)).code, 0);
@@ -94,6 +94,17 @@ TEST_F(CommandLine, TrainEvaluateExportTwiceGivesTheSameBytes) {
       curve.find("episode,steps,reward,moving_average_250,contact,epsilon,learning_rate,loss,td_error,q\n"),
       0U);
   EXPECT_EQ(std::count(curve.begin(), curve.end(), '\n'), 31);
+}
+
+TEST_F(CommandLine, ExportWritesWeightsOfEightBits) {
+  const std::string command =
+      fmt::format("{} {} -o {} --report {}", STRIKER_EXPORT, a_model(), path("p.hpp"), path("p.json"));
+  const Result exported = run(command + " --weights int8");
+  EXPECT_EQ(exported.code, 0) << exported.err;
+  EXPECT_NE(exported.out.find("int8 weights"), std::string::npos) << exported.out;
+  EXPECT_NE(content_of(path("p.hpp")).find("std::int8_t> trained"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("p.json"))).at("weights"), "int8");
+  expect_refusal(command + " --weights int4", "--weights");
 }
 
 TEST_F(CommandLine, EvaluateWritesTheCommonReport) {

@@ -65,6 +65,26 @@ TEST(Export, TheHeaderProvesItself) {
                         directory));
 }
 
+TEST(Export, TheHeaderOfInt8WeightsProvesItself) {
+  const TemporaryDirectory directory;
+  const Model model = some_model();
+  const Export exported = export_model(model, {}, WeightType::int8);
+  const std::string header = header_of(exported, model);
+  const std::string identity =
+      "static_assert(core::identity_of(policy::trained) == policy::trained.identity);\n";
+  EXPECT_TRUE(compiles(header,
+                       identity + "static_assert(core::sums_fit(policy::trained));\n"
+                                  "static_assert(core::scales_are_valid(policy::trained));\n"
+                                  "static_assert(sizeof(policy::trained.layer2.weights) == 64 * 64);\n",
+                       directory))
+      << content_of(directory / "errors");
+  const int weight = exported.policy.network.layers[1].weights[0];
+  const std::string first = ".layer2 = {\n        .weights = {{\n            {{";
+  EXPECT_FALSE(compiles(replaced(header, first + std::to_string(weight), first + std::to_string(weight ^ 1)),
+                        identity, directory));
+  EXPECT_NE(header, header_of(export_model(model, {}), model));
+}
+
 TEST(Export, IsAFunctionOfTheModel) {
   const Model model = some_model();
   const std::string header = header_of(export_model(model, {}), model);
@@ -102,6 +122,7 @@ TEST(Export, TheReportSaysWhatWasFound) {
   const Export exported = export_model(model, {});
   const auto report = nlohmann::json::parse(report_of(exported, model));
   EXPECT_EQ(report.at("identity"), fmt::format("{:08x}", identity_of(exported.policy)));
+  EXPECT_EQ(report.at("weights"), "int16");
   EXPECT_EQ(report.at("layers").size(), 3U);
   EXPECT_GE(report.at("clear_agreement").get<double>(), 0.995);
   EXPECT_LE(report.at("mean_regret").get<double>(), 0.01);
@@ -109,6 +130,14 @@ TEST(Export, TheReportSaysWhatWasFound) {
   const double lost = reward.at("float_mean").get<double>() - reward.at("integer_mean").get<double>();
   EXPECT_LE(std::abs(lost), 0.05 + 3.0 * reward.at("standard_error").get<double>());
   EXPECT_GT(report.at("validation_states").get<int>(), 1000);
+}
+
+TEST(Export, TheReportSaysHowFarEightBitsAgree) {
+  const Model model = some_model();
+  const auto report = nlohmann::json::parse(report_of(export_model(model, {}, WeightType::int8), model));
+  EXPECT_EQ(report.at("weights"), "int8");
+  EXPECT_GE(report.at("clear_agreement").get<double>(), 0.95);
+  EXPECT_LE(report.at("mean_regret").get<double>(), 0.01);
 }
 
 // The header follows the task: its inputs, their past, its actions, the network's shape.

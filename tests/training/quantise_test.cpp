@@ -1,7 +1,9 @@
 // The quantiser: the proof holds, the ranges are kept, and the choices stay.
 #include "quantise.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "agreement.hpp"
 #include "fixtures.hpp"
@@ -21,12 +23,19 @@ std::vector<RawState> some_states(unsigned seed, int count) {
   return states;
 }
 
-class Quantise : public testing::TestWithParam<float> {};
+class Quantise : public testing::TestWithParam<std::tuple<float, WeightType>> {};
 
 // From tiny to large weights: what is proved, and what firmware/core/policy.hpp allows.
 TEST_P(Quantise, FitsTheFirmwaresArithmetic) {
-  const Parameters parameters = scaled(some_parameters(1), GetParam());
-  const Quantised quantised = quantise(parameters, inputs, some_states(2, 500));
+  const auto [factor, weights] = GetParam();
+  const Parameters parameters = scaled(some_parameters(1), factor);
+  const Quantised quantised = quantise(parameters, inputs, some_states(2, 500), weights);
+  EXPECT_EQ(quantised.network.weights, weights);
+  const int limit = weights == WeightType::int8 ? 127 : 32767;
+  for (const IntegerLayer& layer : quantised.network.layers) {
+    EXPECT_LE(*std::max_element(layer.weights.begin(), layer.weights.end()), limit);
+    EXPECT_GE(*std::min_element(layer.weights.begin(), layer.weights.end()), -limit);
+  }
   for (const LayerBound& bound : bound_layers(quantised.network)) {
     EXPECT_TRUE(bound.fits());
   }
@@ -44,12 +53,18 @@ TEST_P(Quantise, FitsTheFirmwaresArithmetic) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Weights, Quantise, testing::Values(0.2F, 0.7F, 1.0F, 1.5F));
+INSTANTIATE_TEST_SUITE_P(Weights, Quantise,
+                         testing::Combine(testing::Values(0.2F, 0.7F, 1.0F, 1.5F),
+                                          testing::Values(WeightType::int16, WeightType::int8)));
 
-TEST(Quantise, AgreesWithFloatOnStatesItHasNotSeen) {
+struct Tolerance {
+  double clear_agreement, mean_regret, greatest_error, mean_error;
+};
+
+void expect_agreement(WeightType weights, const Tolerance& tolerance) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const Parameters parameters = some_parameters(seed);
-    const Quantised quantised = quantise(parameters, inputs, some_states(seed, 2000));
+    const Quantised quantised = quantise(parameters, inputs, some_states(seed, 2000), weights);
     Actor actor(parameters.shape());
     std::vector<Decision> decisions;
     double greatest_error = 0.0;
@@ -64,11 +79,19 @@ TEST(Quantise, AgreesWithFloatOnStatesItHasNotSeen) {
       }
     }
     const Agreement result = agreement(parameters, inputs, decisions);
-    EXPECT_GE(result.clear_agreement, 0.995);
-    EXPECT_LE(result.mean_regret, 1e-3);
-    EXPECT_LT(greatest_error, 0.05);
-    EXPECT_LT(quantised.layers[2].mean_error, 0.01);
+    EXPECT_GE(result.clear_agreement, tolerance.clear_agreement);
+    EXPECT_LE(result.mean_regret, tolerance.mean_regret);
+    EXPECT_LT(greatest_error, tolerance.greatest_error);
+    EXPECT_LT(quantised.layers[2].mean_error, tolerance.mean_error);
   }
+}
+
+TEST(Quantise, AgreesWithFloatOnStatesItHasNotSeen) {
+  expect_agreement(WeightType::int16, {0.995, 1e-3, 0.05, 0.01});
+}
+
+TEST(Quantise, AgreesWithFloatWithWeightsOfEightBits) {
+  expect_agreement(WeightType::int8, {0.98, 1e-3, 0.1, 0.02});
 }
 
 // Large weights leave few bits. Plain rounding misses Q by 0.016 here, in the mean.

@@ -23,8 +23,8 @@ void expect_same_bits() {
     std::generate(raw.begin(), raw.end(), [&] { return draw_raw(random); });
     const auto wanted = infer<policy, kernel::Portable>(raw);
     const auto got = infer<policy>(raw);
-    ASSERT_EQ(got.sums, wanted.sums) << kernel::Chosen::name << ", input " << i;
-    ASSERT_EQ(got.action, wanted.action) << kernel::Chosen::name << ", input " << i;
+    ASSERT_EQ(got.sums, wanted.sums) << ChosenKernel<policy>::name << ", input " << i;
+    ASSERT_EQ(got.action, wanted.action) << ChosenKernel<policy>::name << ", input " << i;
   }
 }
 
@@ -41,6 +41,20 @@ TEST(Kernel, GivesThePortableBitsForEveryShape) {
   expect_same_bits<synthetic_half>();
   expect_same_bits<synthetic_paper>();
   expect_same_bits<synthetic_wide>();
+}
+
+TEST(Kernel, GivesThePortableBitsForEveryShapeOfInt8) {
+  expect_same_bits<synthetic_bytes_smallest>();
+  expect_same_bits<synthetic_bytes_odd>();
+  expect_same_bits<synthetic_bytes_rest>();
+  expect_same_bits<synthetic_bytes_paper>();
+  expect_same_bits<synthetic_bytes_wide>();
+}
+
+// A byte each, but for what fills a kernel's last words.
+TEST(Kernel, PacksInt8IntoBytes) {
+  constexpr std::size_t biases = 4 * (64 + 64 + 3);
+  EXPECT_LE(Packed<synthetic_bytes_paper>::bytes, 6 * 64 + 64 * 64 + 64 * 3 + biases + 2 * 64);
 }
 
 // The scaled input as policy.hpp has it, word by word.

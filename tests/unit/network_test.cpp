@@ -18,8 +18,9 @@ namespace {
 constexpr const auto& policy = policy::trained;
 using Raw = std::array<std::int32_t, policy.inputs>;
 
-template <std::size_t Inputs, std::size_t Outputs>
-std::vector<std::int64_t> sums_of(const Layer<Inputs, Outputs>& layer, const std::vector<std::int64_t>& in) {
+template <std::size_t Inputs, std::size_t Outputs, class Weight>
+std::vector<std::int64_t> sums_of(const Layer<Inputs, Outputs, Weight>& layer,
+                                  const std::vector<std::int64_t>& in) {
   std::vector<std::int64_t> sums;
   for (std::size_t j = 0; j < Outputs; ++j) {
     std::int64_t sum = layer.biases[j];
@@ -105,10 +106,16 @@ TEST(Network, OfEqualActionsTheLowestIsChosen) {
   EXPECT_EQ(infer<flat>({0}).action, 1);
 }
 
-TEST(Proof, AWeightThatCouldOverflowIsRefused) {
+// No int8 weights can: there a bias has to.
+TEST(Proof, AWeightOrBiasThatCouldOverflowIsRefused) {
   auto heavy = policy;
   EXPECT_TRUE(sums_fit(heavy));
-  heavy.layer2.weights[0].fill(32767);
+  if constexpr (sizeof(heavy.layer2.weights[0][0]) > 1) {
+    heavy.layer2.weights[0].fill(32767);
+    EXPECT_FALSE(sums_fit(heavy));
+    heavy = policy;
+  }
+  heavy.layer2.biases[0] = std::numeric_limits<std::int32_t>::max();
   EXPECT_FALSE(sums_fit(heavy));
 }
 

@@ -3,15 +3,23 @@
 // Without optimisation the assembly's register demands cannot be met: then it is the portable one.
 #pragma once
 
+#include <cstdint>
+#include <type_traits>
+
 #if defined(__OPTIMIZE__) && defined(__arm__) && (__ARM_FEATURE_MVE & 1)
 #include "core/kernel/mve.hpp"
+#include "core/kernel/mve_bytes.hpp"
 #elif defined(__OPTIMIZE__) && defined(__ARM_FEATURE_DSP)
 #include "core/kernel/dsp.hpp"
+#include "core/kernel/dsp_bytes.hpp"
 #elif defined(__OPTIMIZE__) && defined(__arm__)
+#include "core/kernel/bytes.hpp"
 #include "core/kernel/mla.hpp"
 #elif defined(__SSE2__)
+#include "core/kernel/bytes.hpp"
 #include "core/kernel/x86.hpp"
 #else
+#include "core/kernel/bytes.hpp"
 #include "core/kernel/portable.hpp"
 #endif
 
@@ -19,16 +27,26 @@ namespace striker::core::kernel {
 
 #if defined(__OPTIMIZE__) && defined(__arm__) && (__ARM_FEATURE_MVE & 1)
 using Chosen = Mve;
+using ChosenBytes = MveBytes;
 #elif defined(__OPTIMIZE__) && defined(__ARM_FEATURE_DSP)
 using Chosen = Dsp;
+using ChosenBytes = DspBytes;
 #elif defined(__OPTIMIZE__) && defined(__arm__)
 using Chosen = Mla;
+using ChosenBytes = Bytes;
 #elif defined(__AVX2__)
 using Chosen = Avx2;
+using ChosenBytes = Bytes;
 #elif defined(__SSE2__)
 using Chosen = Sse2;
+using ChosenBytes = Bytes;
 #else
 using Chosen = Portable;
+using ChosenBytes = Bytes;
 #endif
+
+// By the type of a policy's weights.
+template <class Weight>
+using ChosenFor = std::conditional_t<std::is_same_v<Weight, std::int8_t>, ChosenBytes, Chosen>;
 
 }  // namespace striker::core::kernel

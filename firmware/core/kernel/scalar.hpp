@@ -163,8 +163,8 @@ constexpr std::uint8_t index_of_greatest(const std::array<std::int32_t, Actions>
 
 // The rounding that a hidden layer adds before its shift belongs to the bias: one addition fewer a neuron.
 // The proof bounds bias and rounding together.
-template <std::size_t Inputs, std::size_t Outputs>
-constexpr std::array<std::int32_t, Outputs> rounded_biases(const Layer<Inputs, Outputs>& layer) {
+template <std::size_t Inputs, std::size_t Outputs, class Weight>
+constexpr std::array<std::int32_t, Outputs> rounded_biases(const Layer<Inputs, Outputs, Weight>& layer) {
   auto biases = layer.biases;
   for (std::int32_t& bias : biases) {
     bias += std::int32_t{1} << (layer.shift - 1);

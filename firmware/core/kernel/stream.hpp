@@ -18,8 +18,8 @@ constexpr std::uint32_t half_words(std::int32_t high, std::int32_t low) {
 }
 
 // A layer's weight, or 0 beyond its rows and columns.
-template <std::size_t Inputs, std::size_t Outputs>
-constexpr std::int32_t weight_or_zero(const Layer<Inputs, Outputs>& layer, std::size_t row,
+template <std::size_t Inputs, std::size_t Outputs, class Weight>
+constexpr std::int32_t weight_or_zero(const Layer<Inputs, Outputs, Weight>& layer, std::size_t row,
                                       std::size_t column) {
   return row < Outputs && column < Inputs ? layer.weights[row][column] : 0;
 }

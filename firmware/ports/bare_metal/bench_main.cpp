@@ -84,7 +84,7 @@ std::uint32_t counts_of(Function<policy> function, std::uint32_t repetitions) {
   return count<policy>(function, {}, 2 * repetitions) - once;
 }
 
-template <const auto& policy, class Kernel = kernel::Chosen>
+template <const auto& policy, class Kernel = ChosenKernel<policy>>
 Range count_inference(std::uint32_t inputs) {
   const std::uint32_t repetitions = exact_repetitions();
   const Function<policy> network = infer<policy, Kernel>;
@@ -165,7 +165,7 @@ void count_recorded_steps(bare_metal::Recording& recording, std::uint32_t most_t
 
 int main() {
   console::print("kernel ");
-  console::print(kernel::Chosen::name);
+  console::print(ChosenKernel<trained>::name);
   console::print("\n");
   using Shape = ShapeOf<trained>;
   console::print_line(
