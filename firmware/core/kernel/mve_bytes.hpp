@@ -14,6 +14,8 @@
 namespace striker::core::kernel {
 
 struct MveBytes {
+  static constexpr const char* name = "bytes, mve";
+
   // The rows as they are, one after the other.
   template <std::size_t Inputs, std::size_t Outputs>
   struct Packed {
@@ -30,8 +32,6 @@ struct MveBytes {
     }
     return packed;
   }
-
-  static constexpr const char* name = "bytes, mve";
 
   template <std::size_t Count>
   using Activations = Mve::Activations<Count>;
