@@ -16,8 +16,8 @@ namespace striker::policy {
 
 // clang-format off
 inline constexpr core::Policy<8, 112, 112, 3, 16> trained = {
-    .identity = 0x6CEC99E2U,
-    .configuration_hash = 0xE3988136U,
+    .identity = 0x2344E123U,
+    .configuration_hash = 0xD0FAB02FU,
     .decision_period_ms = 50,
     .state = {{
         {.element = core::StateElement::ball_x, .decisions_ago = 0},
