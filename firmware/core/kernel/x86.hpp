@@ -284,8 +284,9 @@ struct InputScaler {
       // The packing instruction works within 128-bit halves.
       const auto packed = reinterpret_cast<Wide>(Avx2Vectors::narrow(low, high));
       const auto halves = reinterpret_cast<Halves>(__builtin_shufflevector(packed, packed, 0, 2, 1, 3));
-      const Halves limit = Halves{} - static_cast<short>(greatest_activation);
-      const Halves stored = __builtin_ia32_pmaxsw256(halves, limit);
+      Halves limit = Halves{} - static_cast<short>(greatest_activation);
+      asm("" : "+x"(limit));  // of a constant that it knows, GCC 12 makes a comparison and a blend
+      const Halves stored = halves > limit ? halves : limit;
       __builtin_memcpy(to + i, &stored, sizeof stored);
     }
   }
