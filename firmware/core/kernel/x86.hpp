@@ -171,10 +171,11 @@ struct Kernel {
       for (std::size_t r = 0; r < count; ++r) {
         rows[r] = Vectors::fold(row_products(layer.weights[first + r], in.values));
       }
+      alignas(Quad) std::array<std::int32_t, 4> four;
       const Quad sums = gather(rows) + vector_at<Quad>(layer.biases.data() + first);
-      for (std::size_t r = 0; r < count; ++r) {
-        out[first + r] = sums[r];
-      }
+      __builtin_memcpy(four.data(), &sums, sizeof sums);
+      finish_stores(four);  // loads cost the vector ports nothing, taking lanes does
+      std::copy_n(four.begin(), count, out.begin() + first);
     }
   }
 
