@@ -131,7 +131,6 @@ struct Kernel {
     }
     constexpr std::size_t chunk = chunk_rows(Inputs);
     constexpr std::size_t whole = rows(Outputs) / chunk * chunk;
-#pragma GCC unroll 4
     for (std::size_t first = 0; first < whole; first += chunk) {
       hidden_chunk<shift, chunk, pairs(Inputs)>(layer.weights.data() + first * 2 * pairs(Inputs),
                                                 layer.biases.data() + first, in.values.data(),
