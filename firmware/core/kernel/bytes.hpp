@@ -9,13 +9,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/kernel/byte_rows.hpp"
 #include "core/kernel/scalar.hpp"
 
 namespace striker::core::kernel {
 
 struct Bytes {
   static constexpr const char* name = "bytes";
-  static constexpr std::size_t group_rows = 4;
 
   template <std::size_t Count>
   struct Activations {
@@ -24,19 +24,16 @@ struct Bytes {
   };
 
   template <std::size_t Inputs, std::size_t Outputs>
-  struct Packed {
-    std::array<std::int8_t, Inputs * Outputs> weights{};
-    std::array<std::int32_t, Outputs> biases{};
-  };
+  using Packed = ByteRows<Inputs, Outputs>;
 
   template <std::size_t Inputs, std::size_t Outputs>
   static constexpr Packed<Inputs, Outputs> pack(const Layer<Inputs, Outputs, std::int8_t>& layer,
                                                 const std::array<std::int32_t, Outputs>& biases) {
     Packed<Inputs, Outputs> packed{{}, biases};
     std::size_t at = 0;
-    for (std::size_t first = 0; first < Outputs; first += group_rows) {
+    for (std::size_t first = 0; first < Outputs; first += byte_group_rows) {
       for (std::size_t column = 0; column < Inputs; ++column) {
-        for (std::size_t row = first; row < std::min(first + group_rows, Outputs); ++row) {
+        for (std::size_t row = first; row < std::min(first + byte_group_rows, Outputs); ++row) {
           packed.weights[at++] = layer.weights[row][column];
         }
       }
@@ -56,49 +53,25 @@ struct Bytes {
   template <int shift, std::size_t Inputs, std::size_t Outputs>
   [[gnu::always_inline]] static void hidden(const Packed<Inputs, Outputs>& layer,
                                             const Activations<Inputs>& in, Activations<Outputs>& out) {
-    each_sum(layer, in,
-             [&out](std::size_t row, std::int32_t sum) { out.set(row, saturate_relu(sum >> shift)); });
+    each_sum<Bytes>(layer, in,
+                    [&out](std::size_t row, std::int32_t sum) { out.set(row, saturate_relu(sum >> shift)); });
   }
 
   template <std::size_t Inputs, std::size_t Outputs>
   [[gnu::always_inline]] static void sums(const Packed<Inputs, Outputs>& layer, const Activations<Inputs>& in,
                                           std::array<std::int32_t, Outputs>& out) {
-    each_sum(layer, in, [&out](std::size_t row, std::int32_t sum) { out[row] = sum; });
+    each_sum<Bytes>(layer, in, [&out](std::size_t row, std::int32_t sum) { out[row] = sum; });
   }
 
- private:
-  template <std::size_t Rows, std::size_t Inputs, std::size_t Outputs, class Take>
-  [[gnu::always_inline]] static void group_sums(const Packed<Inputs, Outputs>& layer, std::size_t first,
-                                                const Activations<Inputs>& in, Take take) {
-    std::array<std::int32_t, Rows> sums{};
-#pragma GCC unroll 4
-    for (std::size_t r = 0; r < Rows; ++r) {
-      sums[r] = layer.biases[first + r];
-    }
-    const std::int8_t* weights = &layer.weights[first * Inputs];
+  template <std::size_t Rows, std::size_t Inputs>
+  [[gnu::always_inline]] static void add_products(std::array<std::int32_t, Rows>& sums,
+                                                  const std::int8_t* weights, const Activations<Inputs>& in) {
     for (const std::int16_t shared : in.values) {
 #pragma GCC unroll 4
       for (std::size_t r = 0; r < Rows; ++r) {
         sums[r] += weights[r] * shared;
       }
       weights += Rows;
-    }
-#pragma GCC unroll 4
-    for (std::size_t r = 0; r < Rows; ++r) {
-      take(first + r, sums[r]);
-    }
-  }
-
-  // Hands over the sums of a layer's rows.
-  template <std::size_t Inputs, std::size_t Outputs, class Take>
-  [[gnu::always_inline]] static void each_sum(const Packed<Inputs, Outputs>& layer,
-                                              const Activations<Inputs>& in, Take take) {
-    constexpr std::size_t rest = Outputs % group_rows;
-    for (std::size_t first = 0; first + group_rows <= Outputs; first += group_rows) {
-      group_sums<group_rows>(layer, first, in, take);
-    }
-    if constexpr (rest != 0) {
-      group_sums<rest>(layer, Outputs - rest, in, take);
     }
   }
 };

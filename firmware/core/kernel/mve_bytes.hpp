@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/kernel/byte_rows.hpp"
 #include "core/kernel/mve.hpp"
 #include "core/kernel/stream.hpp"
 
@@ -18,10 +19,7 @@ struct MveBytes {
 
   // The rows as they are, one after the other.
   template <std::size_t Inputs, std::size_t Outputs>
-  struct Packed {
-    std::array<std::int8_t, Inputs * Outputs> weights{};
-    std::array<std::int32_t, Outputs> biases{};
-  };
+  using Packed = ByteRows<Inputs, Outputs>;
 
   template <std::size_t Inputs, std::size_t Outputs>
   static constexpr Packed<Inputs, Outputs> pack_output(const Layer<Inputs, Outputs, std::int8_t>& layer) {
@@ -45,17 +43,18 @@ struct MveBytes {
   [[gnu::always_inline]] static void hidden(const Packed<Inputs, Outputs>& layer,
                                             const Activations<Inputs>& in, Activations<Outputs>& out) {
     alignas(16) std::array<std::int32_t, Mve::columns(Outputs)> all;
-    each_sum(layer, in, [&all](std::size_t row, std::int32_t sum) { all[row] = sum; });
+    finish_stores(in);
+    each_sum<MveBytes>(layer, in, [&all](std::size_t row, std::int32_t sum) { all[row] = sum; });
     mve::store_all<shift, Mve::columns(Outputs)>(all.data(), out.values.data());
   }
 
   template <std::size_t Inputs, std::size_t Outputs>
   [[gnu::always_inline]] static void sums(const Packed<Inputs, Outputs>& layer, const Activations<Inputs>& in,
                                           std::array<std::int32_t, Outputs>& out) {
-    each_sum(layer, in, [&out](std::size_t row, std::int32_t sum) { out[row] = sum; });
+    finish_stores(in);
+    each_sum<MveBytes>(layer, in, [&out](std::size_t row, std::int32_t sum) { out[row] = sum; });
   }
 
- private:
   // A row's last vector may be short: past it the weights are 0, whatever the activations.
   template <std::size_t Rows, std::size_t Inputs>
   [[gnu::always_inline]] static void add_products(std::array<std::int32_t, Rows>& sums,
@@ -75,36 +74,6 @@ struct MveBytes {
       for (std::size_t r = 0; r < Rows; ++r) {
         sums[r] = vmladavaq_s16(sums[r], vldrbq_z_s16(weights + r * Inputs + whole, present), shared);
       }
-    }
-  }
-
-  template <std::size_t Rows, std::size_t Inputs, std::size_t Outputs, class Take>
-  [[gnu::always_inline]] static void group_sums(const Packed<Inputs, Outputs>& layer, std::size_t first,
-                                                const Activations<Inputs>& in, Take take) {
-    std::array<std::int32_t, Rows> sums;
-#pragma GCC unroll 4
-    for (std::size_t r = 0; r < Rows; ++r) {
-      sums[r] = layer.biases[first + r];
-    }
-    add_products(sums, &layer.weights[first * Inputs], in);
-#pragma GCC unroll 4
-    for (std::size_t r = 0; r < Rows; ++r) {
-      take(first + r, sums[r]);
-    }
-  }
-
-  // Hands over the sums of a layer's rows.
-  template <std::size_t Inputs, std::size_t Outputs, class Take>
-  [[gnu::always_inline]] static void each_sum(const Packed<Inputs, Outputs>& layer,
-                                              const Activations<Inputs>& in, Take take) {
-    constexpr std::size_t group = 4;
-    constexpr std::size_t rest = Outputs % group;
-    finish_stores(in);
-    for (std::size_t first = 0; first + group <= Outputs; first += group) {
-      group_sums<group>(layer, first, in, take);
-    }
-    if constexpr (rest != 0) {
-      group_sums<rest>(layer, Outputs - rest, in, take);
     }
   }
 };
