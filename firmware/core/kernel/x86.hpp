@@ -295,8 +295,9 @@ struct InputScaler {
   // Eight of them, still in words.
   [[gnu::always_inline]] Words scaled(const std::array<std::int32_t, Inputs>& raw, std::size_t i) const {
     // A copy that fills up with zeros would be stored in pieces: no store is forwarded to a wider load.
-    const Words above =
-        __builtin_ia32_maskloadd256(&vector_at<Words>(raw.data() + i), vector_at<Words>(there.data() + i));
+    // The load needs no alignment, and the caller's inputs have none.
+    const Words above = __builtin_ia32_maskloadd256(reinterpret_cast<const Words*>(raw.data() + i),
+                                                    vector_at<Words>(there.data() + i));
     const Words low = vector_at<Words>(least.data() + i);
     const Words high = vector_at<Words>(greatest.data() + i);
     const Words at_least_low = above > low ? above : low;
