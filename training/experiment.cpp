@@ -116,6 +116,16 @@ std::vector<Variant> paper_readings(const std::string& base_text, const std::str
                 {every, go_on, near_aim, slow}}});
 }
 
+std::vector<Variant> network_widths(const std::string& base_text, const std::string& base_name) {
+  std::vector<Change> changes;
+  for (const int width : {32, 64, 128, 192}) {
+    changes.push_back({fmt::format("width-{}", width),
+                       fmt::format("two hidden layers of {}", width),
+                       {fmt::format("network.hidden=[{0}, {0}]", width)}});
+  }
+  return vary(base_text, base_name, changes);
+}
+
 std::string name_of(const SeedRun& run) {
   return fmt::format("{}, seed {}", run.variant->name, run.seed);
 }

@@ -31,6 +31,9 @@ struct Variant {
 // What the paper leaves open, each reading alone and some together, with the RCS state.
 [[nodiscard]] std::vector<Variant> paper_readings(const std::string& base_text, const std::string& base_name);
 
+// Networks from half to three times the width of `base`'s default, 64: the paper does not give its own.
+[[nodiscard]] std::vector<Variant> network_widths(const std::string& base_text, const std::string& base_name);
+
 struct SeedRun {
   const Variant* variant = nullptr;
   std::uint64_t seed = 0;

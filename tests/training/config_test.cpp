@@ -29,7 +29,7 @@ const std::vector<Wrong> wrong = {
     {"TooLarge", "gamma = 0.95", "gamma = 1.5", {"learner.gamma = 1.5", "0 to 1"}},
     {"TooSmall", "batch = 64", "batch = 1", {"learner.batch = 1", "2 to 4096"}},
     {"BeyondInt", "batch = 64", "batch = 4294967360", {"learner.batch = 4294967360"}},
-    {"NotANumber", "learning_rate = 1e-3", "learning_rate = nan", {"optimiser.learning_rate = nan"}},
+    {"NotANumber", "learning_rate = 2e-3", "learning_rate = nan", {"optimiser.learning_rate = nan"}},
     {"UnknownElement",
      "inputs = \"rcs\"",
      "inputs = [\"ball_z\"]",

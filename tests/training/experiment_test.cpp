@@ -83,12 +83,14 @@ TEST(Experiment, VariantsAreThePapers) {
   EXPECT_EQ(variants[6].config.environments.front().pose, sil::PoseMode::anywhere);
   EXPECT_EQ(variants[7].config.environments.front().equations, Equations::printed);
   std::set<std::string> texts;
-  for (const auto& all : {variants, paper_readings("", "paper")}) {
+  std::size_t count = 0;
+  for (const auto& all : {variants, paper_readings("", "paper"), network_widths("", "paper")}) {
+    count += all.size();
     for (const Variant& variant : all) {
       texts.insert(variant.config.text);
     }
   }
-  EXPECT_EQ(texts.size(), variants.size() + paper_readings("", "paper").size() - 1);  // "rcs" is "official"
+  EXPECT_EQ(texts.size(), count - 2);  // "rcs" is "official" and "width-64"
 }
 
 TEST(Experiment, ARunComesBackFromItsFiles) {
