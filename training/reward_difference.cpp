@@ -1,15 +1,9 @@
 #include "reward_difference.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace striker::training {
-
-namespace {
-
-constexpr std::uint64_t seed = 1;
-constexpr std::uint64_t first_episode = calibration_episodes + 1'000'000;
-
-}  // namespace
 
 RewardDifference reward_difference(const Parameters& parameters, const IntegerNetwork& network,
                                    EnvConfig task, int episodes) {
@@ -20,11 +14,11 @@ RewardDifference reward_difference(const Parameters& parameters, const IntegerNe
   RewardDifference result{.episodes = episodes};
   double squares = 0.0;
   for (int i = 0; i < episodes; ++i) {
-    const std::uint64_t episode = first_episode + static_cast<std::uint64_t>(i);
-    const double exact = play(env, seed, episode, [&](const KickEnv& seen) {
+    const std::uint64_t episode = first_reward_difference_episode + static_cast<std::uint64_t>(i);
+    const double exact = play(env, reward_difference_seed, episode, [&](const KickEnv& seen) {
                            return actor.choose(parameters, seen.features());
                          }).reward;
-    const double integer = play(env, seed, episode, [&](const KickEnv& seen) {
+    const double integer = play(env, reward_difference_seed, episode, [&](const KickEnv& seen) {
                              return static_cast<int>(evaluate(network, seen.raw()).action);
                            }).reward;
     result.float_mean += exact / episodes;
@@ -32,7 +26,7 @@ RewardDifference reward_difference(const Parameters& parameters, const IntegerNe
     squares += (integer - exact) * (integer - exact) / episodes;
   }
   const double mean = result.integer_mean - result.float_mean;
-  result.standard_error = std::sqrt((squares - mean * mean) / episodes);
+  result.standard_error = std::sqrt(std::max(0.0, squares - mean * mean) / episodes);
   return result;
 }
 

@@ -94,6 +94,29 @@ TEST(Quantise, AgreesWithFloatWithWeightsOfEightBits) {
   expect_agreement(WeightType::int8, {0.98, 1e-3, 0.1, 0.02});
 }
 
+// What quantisation-aware training rounds to is what the export stores: to the last bit, and no coarser.
+TEST(Quantise, WeightsRoundedToEightBitsAreExportedAsTheyAre) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    Parameters rounded(Shape{});
+    round_to_int8(some_parameters(seed), rounded);
+    const Quantised quantised = quantise(rounded, inputs, some_states(seed, 500), WeightType::int8);
+    for (int l = 0; l < layer_count; ++l) {
+      const auto n = static_cast<std::size_t>(l);
+      const auto& stored = quantised.network.layers[n].weights;
+      const auto exact = rounded.weights(l);
+      int odd = 0;
+      for (int row = 0; row < exact.rows(); ++row) {
+        for (int column = 0; column < exact.cols(); ++column) {
+          const int weight = stored[static_cast<std::size_t>(row * exact.cols() + column)];
+          EXPECT_EQ(std::ldexp(weight, -quantised.layers[n].weight_exponent), exact(row, column));
+          odd += weight % 2 != 0 ? 1 : 0;
+        }
+      }
+      EXPECT_GT(odd, 0) << l;
+    }
+  }
+}
+
 // Large weights leave few bits. Plain rounding misses Q by 0.016 here, in the mean.
 TEST(Quantise, ErrorFeedbackRoundsLargeWeightsWell) {
   const Parameters parameters = scaled(some_parameters(1), 3.0F);
