@@ -11,15 +11,15 @@
 #include <optional>
 #include <string>
 
-#include "bus/bit_rate.hpp"
-#include "bus/candump_log.hpp"
-#include "bus/in_process_link.hpp"
-#include "bus/socketcan_link.hpp"
-#include "bus/timed_link.hpp"
-#include "kick/decision_csv.hpp"
-#include "kick/kick_run.hpp"
-#include "ports/linux/periodic_clock.hpp"
-#include "ports/linux/stop_signal.hpp"
+#include "sil/bus/bit_rate.hpp"
+#include "sil/bus/candump_log.hpp"
+#include "sil/bus/in_process_link.hpp"
+#include "sil/bus/socketcan_link.hpp"
+#include "sil/bus/timed_link.hpp"
+#include "sil/kick/decision_csv.hpp"
+#include "sil/kick/kick_run.hpp"
+#include "firmware/ports/linux/periodic_clock.hpp"
+#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace {
 

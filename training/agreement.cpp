@@ -1,4 +1,4 @@
-#include "agreement.hpp"
+#include "training/agreement.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "files.hpp"
+#include "training/files.hpp"
 
 namespace striker::training {
 

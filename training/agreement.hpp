@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "network.hpp"
+#include "training/network.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "ceiling.hpp"
+#include "training/ceiling.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reachable.hpp"
+#include "training/reachable.hpp"
 
 namespace striker::training {
 

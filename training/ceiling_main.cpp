@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <thread>
 
-#include "ceiling_run.hpp"
-#include "cli.hpp"
-#include "files.hpp"
-#include "interrupt.hpp"
-#include "progress.hpp"
+#include "training/ceiling_run.hpp"
+#include "training/cli.hpp"
+#include "training/files.hpp"
+#include "training/interrupt.hpp"
+#include "training/progress.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "ceiling_run.hpp"
+#include "training/ceiling_run.hpp"
 
 #include <fmt/format.h>
 

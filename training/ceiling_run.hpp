@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "ceiling.hpp"
-#include "report/kick_report.hpp"
-#include "rivals.hpp"
+#include "training/ceiling.hpp"
+#include "sil/report/kick_report.hpp"
+#include "training/rivals.hpp"
 
 namespace striker::training {
 

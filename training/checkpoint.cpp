@@ -1,4 +1,4 @@
-#include "checkpoint.hpp"
+#include "training/checkpoint.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "files.hpp"
-#include "safetensors.hpp"
+#include "training/files.hpp"
+#include "training/safetensors.hpp"
 
 namespace striker::training {
 

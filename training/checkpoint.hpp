@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "dqn.hpp"
+#include "training/dqn.hpp"
 
 namespace striker::training {
 

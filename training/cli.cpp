@@ -1,4 +1,4 @@
-#include "cli.hpp"
+#include "training/cli.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "config.hpp"
+#include "training/config.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "files.hpp"
+#include "training/files.hpp"
 #include "paper_toml.hpp"
 
 namespace striker::training {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kick_env.hpp"
-#include "network.hpp"
+#include "training/kick_env.hpp"
+#include "training/network.hpp"
 
 namespace striker::training {
 

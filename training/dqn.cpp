@@ -1,4 +1,4 @@
-#include "dqn.hpp"
+#include "training/dqn.hpp"
 
 #include <algorithm>
 #include <cmath>

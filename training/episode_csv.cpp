@@ -1,4 +1,4 @@
-#include "episode_csv.hpp"
+#include "training/episode_csv.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "files.hpp"
+#include "training/files.hpp"
 
 namespace striker::training {
 

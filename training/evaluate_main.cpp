@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "agreement.hpp"
-#include "cli.hpp"
-#include "files.hpp"
-#include "kick_env.hpp"
-#include "model.hpp"
-#include "report/kick_report.hpp"
+#include "training/agreement.hpp"
+#include "training/cli.hpp"
+#include "training/files.hpp"
+#include "training/kick_env.hpp"
+#include "training/model.hpp"
+#include "sil/report/kick_report.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "experiment.hpp"
+#include "training/experiment.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "files.hpp"
-#include "hash.hpp"
-#include "model.hpp"
-#include "training_run.hpp"
+#include "training/files.hpp"
+#include "training/hash.hpp"
+#include "training/model.hpp"
+#include "training/training_run.hpp"
 
 namespace striker::training {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "config.hpp"
+#include "training/config.hpp"
 
 namespace striker::training {
 

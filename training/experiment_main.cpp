@@ -9,14 +9,14 @@
 #include <string>
 #include <thread>
 
-#include "cli.hpp"
-#include "experiment.hpp"
-#include "experiment_summary.hpp"
-#include "files.hpp"
-#include "interrupt.hpp"
-#include "progress.hpp"
-#include "ranks.hpp"
-#include "workers.hpp"
+#include "training/cli.hpp"
+#include "training/experiment.hpp"
+#include "training/experiment_summary.hpp"
+#include "training/files.hpp"
+#include "training/interrupt.hpp"
+#include "training/progress.hpp"
+#include "training/ranks.hpp"
+#include "training/workers.hpp"
 
 namespace striker::training {
 

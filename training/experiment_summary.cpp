@@ -1,4 +1,4 @@
-#include "experiment_summary.hpp"
+#include "training/experiment_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <limits>
 
-#include "files.hpp"
-#include "training_run.hpp"
+#include "training/files.hpp"
+#include "training/training_run.hpp"
 
 namespace striker::training {
 

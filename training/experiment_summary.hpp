@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiment.hpp"
-#include "statistics.hpp"
+#include "training/experiment.hpp"
+#include "training/statistics.hpp"
 
 namespace striker::training {
 

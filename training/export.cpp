@@ -1,4 +1,4 @@
-#include "export.hpp"
+#include "training/export.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "hash.hpp"
-#include "world/random.hpp"
+#include "training/hash.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::training {
 
@@ -153,7 +153,7 @@ Export export_model(const Model& model, const EnvConfig& task, WeightType weight
 std::string header_of(const Export& exported, const Model& model) {
   std::vector<std::string> notes{
       "The kick policy: an integer Q network, written by striker-export. Do not edit: an altered number does",
-      "not compile. Format and arithmetic: core/policy.hpp.",
+      "not compile. Format and arithmetic: firmware/core/policy.hpp.",
       "",
       fmt::format(
           "Trained by striker-train, configuration \"{}\", seed {}; the float model's identity is {}.",

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "agreement.hpp"
-#include "export_header.hpp"
-#include "model.hpp"
-#include "quantise.hpp"
-#include "reward_difference.hpp"
+#include "training/agreement.hpp"
+#include "training/export_header.hpp"
+#include "training/model.hpp"
+#include "training/quantise.hpp"
+#include "training/reward_difference.hpp"
 
 namespace striker::training {
 

@@ -1,10 +1,10 @@
-#include "export_header.hpp"
+#include "training/export_header.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
 
-#include "hash.hpp"
+#include "training/hash.hpp"
 
 namespace striker::training {
 
@@ -131,7 +131,7 @@ std::string header_text(const ExportedPolicy& policy, const std::vector<std::str
   for (const std::string& note : notes) {
     text += note.empty() ? "//\n" : fmt::format("// {}\n", note);
   }
-  text += "#pragma once\n\n#include \"core/policy.hpp\"\n\nnamespace striker::policy {\n\n";
+  text += "#pragma once\n\n#include \"firmware/core/policy.hpp\"\n\nnamespace striker::policy {\n\n";
   text += "// clang-format off\n";
   text += fmt::format("inline constexpr core::Policy<{}, {}, {}, {}, {}{}> trained = {{\n",
                       policy.network.input_scales.size(), layers.at(0).outputs(), layers.at(1).outputs(),

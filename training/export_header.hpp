@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "integer_network.hpp"
-#include "state.hpp"
+#include "training/integer_network.hpp"
+#include "training/state.hpp"
 
 namespace striker::training {
 

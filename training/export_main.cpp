@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "cli.hpp"
-#include "export.hpp"
-#include "files.hpp"
+#include "training/cli.hpp"
+#include "training/export.hpp"
+#include "training/files.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "files.hpp"
+#include "training/files.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "report/atomic_file.hpp"
+#include "sil/report/atomic_file.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "integer_network.hpp"
+#include "training/integer_network.hpp"
 
 #include <algorithm>
 #include <cstdlib>

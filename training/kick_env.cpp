@@ -1,4 +1,4 @@
-#include "kick_env.hpp"
+#include "training/kick_env.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
-#include "line_play.hpp"
+#include "training/line_play.hpp"
 
 #include <algorithm>
 
-#include "world/field_specs.hpp"
-#include "world/robot_specs.hpp"
+#include "sil/world/field_specs.hpp"
+#include "sil/world/robot_specs.hpp"
 
 namespace striker::training {
 

@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "kick_env.hpp"
-#include "world/planar_robot.hpp"
+#include "training/kick_env.hpp"
+#include "sil/world/planar_robot.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "model.hpp"
+#include "training/model.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "files.hpp"
-#include "hash.hpp"
+#include "training/files.hpp"
+#include "training/hash.hpp"
 
 namespace striker::training {
 

@@ -10,9 +10,9 @@
 #include <map>
 #include <string>
 
-#include "config.hpp"
-#include "network.hpp"
-#include "safetensors.hpp"
+#include "training/config.hpp"
+#include "training/network.hpp"
+#include "training/safetensors.hpp"
 
 namespace striker::training {
 

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "state.hpp"
+#include "training/state.hpp"
 
 namespace striker::training {
 

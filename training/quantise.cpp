@@ -1,4 +1,4 @@
-#include "quantise.hpp"
+#include "training/quantise.hpp"
 
 #include <fmt/format.h>
 

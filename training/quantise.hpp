@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "integer_network.hpp"
-#include "network.hpp"
+#include "training/integer_network.hpp"
+#include "training/network.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "ranks.hpp"
+#include "training/ranks.hpp"
 
 #ifdef STRIKER_HAS_MPI
 #include <mpi.h>
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "files.hpp"
+#include "training/files.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "reachable.hpp"
+#include "training/reachable.hpp"
 
 #include <algorithm>
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "line_play.hpp"
+#include "training/line_play.hpp"
 
 namespace striker::training {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "state.hpp"
+#include "training/state.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "reward_difference.hpp"
+#include "training/reward_difference.hpp"
 
 #include <algorithm>
 #include <cmath>

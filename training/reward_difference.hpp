@@ -1,9 +1,9 @@
 // What the integer network loses in reward against the float one, in the simulator's world.
 #pragma once
 
-#include "integer_network.hpp"
-#include "kick_env.hpp"
-#include "network.hpp"
+#include "training/integer_network.hpp"
+#include "training/kick_env.hpp"
+#include "training/network.hpp"
 
 namespace striker::training {
 

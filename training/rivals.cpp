@@ -1,10 +1,10 @@
-#include "rivals.hpp"
+#include "training/rivals.hpp"
 
 #include <cmath>
 
-#include "world/field_specs.hpp"
-#include "world/random.hpp"
-#include "world/robot_specs.hpp"
+#include "sil/world/field_specs.hpp"
+#include "sil/world/random.hpp"
+#include "sil/world/robot_specs.hpp"
 
 namespace striker::training {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kick_env.hpp"
-#include "line_play.hpp"
+#include "training/kick_env.hpp"
+#include "training/line_play.hpp"
 
 namespace striker::training {
 

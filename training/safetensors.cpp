@@ -1,4 +1,4 @@
-#include "safetensors.hpp"
+#include "training/safetensors.hpp"
 
 #include <fmt/format.h>
 

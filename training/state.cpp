@@ -1,4 +1,4 @@
-#include "state.hpp"
+#include "training/state.hpp"
 
 #include <algorithm>
 #include <cmath>

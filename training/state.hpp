@@ -16,8 +16,8 @@
 #include <string_view>
 #include <vector>
 
-#include "world/random.hpp"
-#include "world/world.hpp"
+#include "sil/world/random.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::training {
 

@@ -1,10 +1,10 @@
-#include "statistics.hpp"
+#include "training/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "world/random.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::training {
 

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
-#include "cli.hpp"
-#include "interrupt.hpp"
-#include "progress.hpp"
-#include "training_run.hpp"
+#include "training/cli.hpp"
+#include "training/interrupt.hpp"
+#include "training/progress.hpp"
+#include "training/training_run.hpp"
 
 namespace striker::training {
 

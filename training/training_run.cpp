@@ -1,4 +1,4 @@
-#include "training_run.hpp"
+#include "training/training_run.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "episode_csv.hpp"
-#include "files.hpp"
+#include "training/episode_csv.hpp"
+#include "training/files.hpp"
 
 namespace striker::training {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "checkpoint.hpp"
-#include "dqn.hpp"
-#include "model.hpp"
+#include "training/checkpoint.hpp"
+#include "training/dqn.hpp"
+#include "training/model.hpp"
 
 namespace striker::training {
 

@@ -1,4 +1,4 @@
-#include "workers.hpp"
+#include "training/workers.hpp"
 
 #include <fmt/format.h>
 #include <sys/wait.h>

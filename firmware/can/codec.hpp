@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "can/e2e.hpp"
-#include "can/frame.hpp"
-#include "can/messages.hpp"
+#include "firmware/can/e2e.hpp"
+#include "firmware/can/frame.hpp"
+#include "firmware/can/messages.hpp"
 
 namespace striker::can {
 

@@ -1,6 +1,6 @@
-#include "can/dbc.hpp"
+#include "firmware/can/dbc.hpp"
 
-#include "can/messages.hpp"
+#include "firmware/can/messages.hpp"
 
 namespace striker::can {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "can/frame.hpp"
+#include "firmware/can/frame.hpp"
 
 namespace striker::can {
 

@@ -11,8 +11,8 @@
 #include <limits>
 #include <tuple>
 
-#include "can/frame.hpp"
-#include "can/layout.hpp"
+#include "firmware/can/frame.hpp"
+#include "firmware/can/layout.hpp"
 
 namespace striker::can {
 

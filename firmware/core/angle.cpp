@@ -1,4 +1,4 @@
-#include "core/angle.hpp"
+#include "firmware/core/angle.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
-#include "core/command_check.hpp"
+#include "firmware/core/command_check.hpp"
 
-#include "core/wheel_loop.hpp"
+#include "firmware/core/wheel_loop.hpp"
 
 namespace striker::core {
 

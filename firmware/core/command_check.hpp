@@ -2,7 +2,7 @@
 // supervisor, the policy and the loops wanted does not count here.
 #pragma once
 
-#include "can/messages.hpp"
+#include "firmware/can/messages.hpp"
 
 namespace striker::core {
 

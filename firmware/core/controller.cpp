@@ -1,11 +1,11 @@
-#include "core/controller.hpp"
+#include "firmware/core/controller.hpp"
 
 #include <algorithm>
 #include <type_traits>
 #include <utility>
 
-#include "core/network.hpp"
-#include "core/policy_proof.hpp"
+#include "firmware/core/network.hpp"
+#include "firmware/core/policy_proof.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace striker::core {

@@ -17,13 +17,13 @@
 #include <cstdint>
 #include <span>
 
-#include "can/codec.hpp"
-#include "core/command_check.hpp"
-#include "core/estimator.hpp"
-#include "core/inbox.hpp"
-#include "core/relative_state.hpp"
-#include "core/supervisor.hpp"
-#include "core/wheel_loop.hpp"
+#include "firmware/can/codec.hpp"
+#include "firmware/core/command_check.hpp"
+#include "firmware/core/estimator.hpp"
+#include "firmware/core/inbox.hpp"
+#include "firmware/core/relative_state.hpp"
+#include "firmware/core/supervisor.hpp"
+#include "firmware/core/wheel_loop.hpp"
 
 namespace striker::core {
 

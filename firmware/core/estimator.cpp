@@ -1,4 +1,4 @@
-#include "core/estimator.hpp"
+#include "firmware/core/estimator.hpp"
 
 #include <algorithm>
 

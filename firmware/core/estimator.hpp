@@ -8,8 +8,8 @@
 
 #include <cstdint>
 
-#include "can/messages.hpp"
-#include "core/angle.hpp"
+#include "firmware/can/messages.hpp"
+#include "firmware/core/angle.hpp"
 
 namespace striker::core {
 

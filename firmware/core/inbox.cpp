@@ -1,4 +1,4 @@
-#include "core/inbox.hpp"
+#include "firmware/core/inbox.hpp"
 
 namespace striker::core {
 

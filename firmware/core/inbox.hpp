@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "can/codec.hpp"
-#include "core/estimator.hpp"
+#include "firmware/can/codec.hpp"
+#include "firmware/core/estimator.hpp"
 
 namespace striker::core {
 

@@ -23,9 +23,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/kernel/chosen.hpp"
-#include "core/kernel/scalar.hpp"
-#include "core/policy.hpp"
+#include "firmware/core/kernel/chosen.hpp"
+#include "firmware/core/kernel/scalar.hpp"
+#include "firmware/core/policy.hpp"
 
 namespace striker::core {
 

@@ -1,4 +1,4 @@
-#include "core/relative_state.hpp"
+#include "firmware/core/relative_state.hpp"
 
 namespace striker::core {
 

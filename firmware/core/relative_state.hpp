@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-#include "core/estimator.hpp"
-#include "core/policy.hpp"
+#include "firmware/core/estimator.hpp"
+#include "firmware/core/policy.hpp"
 
 namespace striker::core {
 

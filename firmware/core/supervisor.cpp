@@ -1,4 +1,4 @@
-#include "core/supervisor.hpp"
+#include "firmware/core/supervisor.hpp"
 
 namespace striker::core {
 

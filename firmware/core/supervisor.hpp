@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "can/messages.hpp"
+#include "firmware/can/messages.hpp"
 
 namespace striker::core {
 

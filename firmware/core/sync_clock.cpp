@@ -1,4 +1,4 @@
-#include "core/sync_clock.hpp"
+#include "firmware/core/sync_clock.hpp"
 
 namespace striker::core {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/controller.hpp"
+#include "firmware/core/controller.hpp"
 
 namespace striker::core {
 

@@ -1,4 +1,4 @@
-#include "core/wheel_loop.hpp"
+#include "firmware/core/wheel_loop.hpp"
 
 #include <algorithm>
 

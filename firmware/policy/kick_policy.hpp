@@ -1,5 +1,5 @@
 // The kick policy: an integer Q network, written by striker-export. Do not edit: an altered number does
-// not compile. Format and arithmetic: core/policy.hpp.
+// not compile. Format and arithmetic: firmware/core/policy.hpp.
 //
 // Trained by striker-train, configuration "kick", seed 1; the float model's identity is 0f57bf8c.
 // Mean reward of the float network on its validation episodes, servo plant: 7.837.
@@ -10,7 +10,7 @@
 // Layer 3: weights times 2^9, results after the shift times 2^8, 0.22 bits of headroom.
 #pragma once
 
-#include "core/policy.hpp"
+#include "firmware/core/policy.hpp"
 
 namespace striker::policy {
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "budget/budget_report.hpp"
-#include "budget/message_set.hpp"
-#include "bus/bit_rate.hpp"
+#include "sil/budget/budget_report.hpp"
+#include "sil/budget/message_set.hpp"
+#include "sil/bus/bit_rate.hpp"
 
 namespace {
 

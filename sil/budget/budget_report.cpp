@@ -1,10 +1,10 @@
-#include "budget/budget_report.hpp"
+#include "sil/budget/budget_report.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "report/atomic_file.hpp"
+#include "sil/report/atomic_file.hpp"
 
 namespace striker::sil {
 

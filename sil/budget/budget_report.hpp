@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "budget/decision_deadline.hpp"
-#include "budget/response_time.hpp"
+#include "sil/budget/decision_deadline.hpp"
+#include "sil/budget/response_time.hpp"
 
 namespace striker::sil {
 

@@ -10,7 +10,7 @@
 #include <regex>
 #include <stdexcept>
 
-#include "budget/message_set.hpp"
+#include "sil/budget/message_set.hpp"
 
 namespace striker::sil {
 

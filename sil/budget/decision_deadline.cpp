@@ -1,9 +1,9 @@
-#include "budget/decision_deadline.hpp"
+#include "sil/budget/decision_deadline.hpp"
 
 #include <algorithm>
 
-#include "budget/message_set.hpp"
-#include "can/messages.hpp"
+#include "sil/budget/message_set.hpp"
+#include "firmware/can/messages.hpp"
 
 namespace striker::sil {
 

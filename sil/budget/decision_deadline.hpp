@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "budget/response_time.hpp"
+#include "sil/budget/response_time.hpp"
 
 namespace striker::sil {
 

@@ -1,8 +1,8 @@
-#include "budget/message_set.hpp"
+#include "sil/budget/message_set.hpp"
 
 #include <algorithm>
 
-#include "can/messages.hpp"
+#include "firmware/can/messages.hpp"
 
 namespace striker::sil {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "budget/response_time.hpp"
+#include "sil/budget/response_time.hpp"
 
 namespace striker::sil {
 

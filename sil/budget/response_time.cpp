@@ -1,8 +1,8 @@
-#include "budget/response_time.hpp"
+#include "sil/budget/response_time.hpp"
 
 #include <algorithm>
 
-#include "bus/frame_bits.hpp"
+#include "sil/bus/frame_bits.hpp"
 
 namespace striker::sil {
 

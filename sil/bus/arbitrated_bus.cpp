@@ -1,9 +1,9 @@
-#include "bus/arbitrated_bus.hpp"
+#include "sil/bus/arbitrated_bus.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "bus/frame_bits.hpp"
+#include "sil/bus/frame_bits.hpp"
 
 namespace striker::sil {
 

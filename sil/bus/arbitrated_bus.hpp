@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "can/frame.hpp"
+#include "firmware/can/frame.hpp"
 
 namespace striker::sil {
 

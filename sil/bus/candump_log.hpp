@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "can/frame.hpp"
-#include "report/atomic_file.hpp"
+#include "firmware/can/frame.hpp"
+#include "sil/report/atomic_file.hpp"
 
 namespace striker::sil {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "can/frame.hpp"
+#include "firmware/can/frame.hpp"
 
 namespace striker::sil {
 

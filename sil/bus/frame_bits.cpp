@@ -1,4 +1,4 @@
-#include "bus/frame_bits.hpp"
+#include "sil/bus/frame_bits.hpp"
 
 #include <algorithm>
 

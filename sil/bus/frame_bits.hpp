@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "can/frame.hpp"
+#include "firmware/can/frame.hpp"
 
 namespace striker::sil {
 

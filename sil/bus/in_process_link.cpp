@@ -1,4 +1,4 @@
-#include "bus/in_process_link.hpp"
+#include "sil/bus/in_process_link.hpp"
 
 namespace striker::sil {
 

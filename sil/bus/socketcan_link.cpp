@@ -1,12 +1,12 @@
-#include "bus/socketcan_link.hpp"
+#include "sil/bus/socketcan_link.hpp"
 
 #include <fmt/core.h>
 
 #include <array>
 #include <stdexcept>
 
-#include "can/codec.hpp"
-#include "ports/linux/stop_signal.hpp"
+#include "firmware/can/codec.hpp"
+#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace striker::sil {
 

@@ -9,8 +9,8 @@
 #include <chrono>
 #include <string>
 
-#include "bus/controller_link.hpp"
-#include "ports/linux/can_socket.hpp"
+#include "sil/bus/controller_link.hpp"
+#include "firmware/ports/linux/can_socket.hpp"
 
 namespace striker::sil {
 

@@ -1,9 +1,9 @@
-#include "bus/timed_link.hpp"
+#include "sil/bus/timed_link.hpp"
 
 #include <algorithm>
 
-#include "bus/frame_bits.hpp"
-#include "can/codec.hpp"
+#include "sil/bus/frame_bits.hpp"
+#include "firmware/can/codec.hpp"
 
 namespace striker::sil {
 

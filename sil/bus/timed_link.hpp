@@ -12,8 +12,8 @@
 
 #include <optional>
 
-#include "bus/arbitrated_bus.hpp"
-#include "bus/controller_link.hpp"
+#include "sil/bus/arbitrated_bus.hpp"
+#include "sil/bus/controller_link.hpp"
 
 namespace striker::sil {
 

@@ -1,4 +1,4 @@
-#include "bus/vision.hpp"
+#include "sil/bus/vision.hpp"
 
 #include <cmath>
 #include <numbers>

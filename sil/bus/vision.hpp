@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "can/codec.hpp"
-#include "world/world.hpp"
+#include "firmware/can/codec.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

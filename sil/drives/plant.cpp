@@ -1,11 +1,11 @@
-#include "drives/plant.hpp"
+#include "sil/drives/plant.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "world/robot_specs.hpp"
+#include "sil/world/robot_specs.hpp"
 
 namespace striker::sil {
 

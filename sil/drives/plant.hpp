@@ -10,8 +10,8 @@
 #include <memory>
 #include <string>
 
-#include "can/messages.hpp"
-#include "world/world.hpp"
+#include "firmware/can/messages.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

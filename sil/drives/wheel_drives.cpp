@@ -1,4 +1,4 @@
-#include "drives/wheel_drives.hpp"
+#include "sil/drives/wheel_drives.hpp"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "can/codec.hpp"
-#include "drives/plant.hpp"
+#include "firmware/can/codec.hpp"
+#include "sil/drives/plant.hpp"
 
 namespace striker::sil {
 

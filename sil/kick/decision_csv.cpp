@@ -1,4 +1,4 @@
-#include "kick/decision_csv.hpp"
+#include "sil/kick/decision_csv.hpp"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "core/controller.hpp"
-#include "report/atomic_file.hpp"
+#include "firmware/core/controller.hpp"
+#include "sil/report/atomic_file.hpp"
 
 namespace striker::sil {
 

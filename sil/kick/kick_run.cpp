@@ -1,4 +1,4 @@
-#include "kick/kick_run.hpp"
+#include "sil/kick/kick_run.hpp"
 
 #include <fmt/core.h>
 

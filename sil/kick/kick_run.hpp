@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "bus/controller_link.hpp"
-#include "bus/vision.hpp"
-#include "drives/wheel_drives.hpp"
-#include "report/kick_report.hpp"
-#include "world/kick_task.hpp"
+#include "sil/bus/controller_link.hpp"
+#include "sil/bus/vision.hpp"
+#include "sil/drives/wheel_drives.hpp"
+#include "sil/report/kick_report.hpp"
+#include "sil/world/kick_task.hpp"
 
 namespace striker::sil {
 

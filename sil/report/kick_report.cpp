@@ -1,4 +1,4 @@
-#include "report/kick_report.hpp"
+#include "sil/report/kick_report.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "report/atomic_file.hpp"
+#include "sil/report/atomic_file.hpp"
 
 namespace striker::sil {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "world/kick_task.hpp"
+#include "sil/world/kick_task.hpp"
 
 namespace striker::sil {
 

@@ -1,4 +1,4 @@
-#include "world/contacts.hpp"
+#include "sil/world/contacts.hpp"
 
 #include <cmath>
 

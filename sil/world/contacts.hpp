@@ -4,9 +4,9 @@
 #include <array>
 #include <span>
 
-#include "world/materials.hpp"
-#include "world/ode_handles.hpp"
-#include "world/world.hpp"
+#include "sil/world/materials.hpp"
+#include "sil/world/ode_handles.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

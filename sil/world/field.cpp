@@ -1,9 +1,9 @@
-#include "world/field.hpp"
+#include "sil/world/field.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "world/field_specs.hpp"
+#include "sil/world/field_specs.hpp"
 
 namespace striker::sil {
 namespace {

@@ -1,11 +1,11 @@
-#include "world/kick_task.hpp"
+#include "sil/world/kick_task.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "world/field_specs.hpp"
-#include "world/planar_world.hpp"
-#include "world/random.hpp"
+#include "sil/world/field_specs.hpp"
+#include "sil/world/planar_world.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::sil {
 namespace {

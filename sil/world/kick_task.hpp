@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "world/world.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

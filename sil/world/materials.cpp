@@ -1,4 +1,4 @@
-#include "world/materials.hpp"
+#include "sil/world/materials.hpp"
 
 #include <array>
 

@@ -1,10 +1,10 @@
-#include "world/ode_world.hpp"
+#include "sil/world/ode_world.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "world/field_specs.hpp"
-#include "world/materials.hpp"
+#include "sil/world/field_specs.hpp"
+#include "sil/world/materials.hpp"
 
 namespace striker::sil {
 namespace {

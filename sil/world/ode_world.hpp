@@ -1,8 +1,8 @@
 // What every ODE world here has: gravity, damping, softness, and the ball.
 #pragma once
 
-#include "world/ode_handles.hpp"
-#include "world/world.hpp"
+#include "sil/world/ode_handles.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

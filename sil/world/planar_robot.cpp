@@ -1,4 +1,4 @@
-#include "world/planar_robot.hpp"
+#include "sil/world/planar_robot.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -17,8 +17,8 @@
 #include <algorithm>
 #include <array>
 
-#include "world/robot_specs.hpp"
-#include "world/world.hpp"
+#include "sil/world/robot_specs.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

@@ -1,16 +1,16 @@
-#include "world/planar_world.hpp"
+#include "sil/world/planar_world.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 
-#include "world/contacts.hpp"
-#include "world/field.hpp"
-#include "world/field_specs.hpp"
-#include "world/ode_world.hpp"
-#include "world/planar_robot.hpp"
-#include "world/robot_specs.hpp"
+#include "sil/world/contacts.hpp"
+#include "sil/world/field.hpp"
+#include "sil/world/field_specs.hpp"
+#include "sil/world/ode_world.hpp"
+#include "sil/world/planar_robot.hpp"
+#include "sil/world/robot_specs.hpp"
 
 namespace striker::sil {
 namespace {

@@ -22,7 +22,7 @@
 #include <memory>
 #include <optional>
 
-#include "world/world.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

@@ -1,11 +1,11 @@
-#include "world/robot.hpp"
+#include "sil/world/robot.hpp"
 
 #include <cmath>
 #include <cstddef>
 
-#include "world/materials.hpp"
-#include "world/ode_world.hpp"
-#include "world/robot_specs.hpp"
+#include "sil/world/materials.hpp"
+#include "sil/world/ode_world.hpp"
+#include "sil/world/robot_specs.hpp"
 
 namespace striker::sil {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "world/ode_handles.hpp"
-#include "world/world.hpp"
+#include "sil/world/ode_handles.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

@@ -1,7 +1,7 @@
 // Size, mass and drive limits of the AI Soccer robots (a box on two driven wheels and two skids).
 #pragma once
 
-#include "world/world.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

@@ -1,14 +1,14 @@
-#include "world/world.hpp"
+#include "sil/world/world.hpp"
 
 #include <stdexcept>
 #include <utility>
 
-#include "world/contacts.hpp"
-#include "world/field.hpp"
-#include "world/field_specs.hpp"
-#include "world/materials.hpp"
-#include "world/ode_world.hpp"
-#include "world/robot.hpp"
+#include "sil/world/contacts.hpp"
+#include "sil/world/field.hpp"
+#include "sil/world/field_specs.hpp"
+#include "sil/world/materials.hpp"
+#include "sil/world/ode_world.hpp"
+#include "sil/world/robot.hpp"
 
 namespace striker::sil {
 namespace {

@@ -9,7 +9,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 compile() {
-  g++ -std=c++20 -fsyntax-only -I "$source_dir/firmware" "-DSTRIKER_POLICY_HEADER=\"$1\"" \
+  g++ -std=c++20 -fsyntax-only -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$1\"" \
     "$source_dir/firmware/core/controller.cpp" 2>&1
 }
 

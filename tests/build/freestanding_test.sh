@@ -10,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 flags=(-std=c++20 -O2 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -Wall -Wextra -Werror
-  -I "$source_dir/firmware" "-DSTRIKER_POLICY_HEADER=\"$policy\"")
+  -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$policy\"")
 
 # malloc and its family, operator new and delete, exceptions, soft-float helpers, libm.
 forbidden='^(malloc|calloc|realloc|free|_Zn[wa].*|_Zd[la].*|__cxa_.*|_Unwind_.*|__gxx_personality.*'

@@ -1,8 +1,8 @@
-#include "bus/arbitrated_bus.hpp"
+#include "sil/bus/arbitrated_bus.hpp"
 
 #include <gtest/gtest.h>
 
-#include "bus/frame_bits.hpp"
+#include "sil/bus/frame_bits.hpp"
 
 namespace striker::sil {
 namespace {

@@ -1,12 +1,12 @@
 // A frame's bits, against a second implementation by text: CRC by polynomial division, stuffing by search.
-#include "bus/frame_bits.hpp"
+#include "sil/bus/frame_bits.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bitset>
 #include <string>
 
-#include "world/random.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::sil {
 namespace {

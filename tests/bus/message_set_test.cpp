@@ -1,5 +1,5 @@
 // The message table and its DBC are one message set; other DBC files say what is wrong with them.
-#include "budget/message_set.hpp"
+#include "sil/budget/message_set.hpp"
 
 #include <gtest/gtest.h>
 

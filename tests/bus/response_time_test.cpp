@@ -1,13 +1,13 @@
 // The analysis against the paper's example, and against simulated buses that try to break it.
-#include "budget/response_time.hpp"
+#include "sil/budget/response_time.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "budget/message_set.hpp"
-#include "traffic.hpp"
-#include "world/random.hpp"
+#include "sil/budget/message_set.hpp"
+#include "tests/bus/traffic.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::sil {
 namespace {

@@ -1,13 +1,13 @@
 // The bit-timed bus in the loop: deterministic, one frame at a time, and no decision later than its bound.
-#include "bus/timed_link.hpp"
+#include "sil/bus/timed_link.hpp"
 
 #include <gtest/gtest.h>
 
-#include "budget/decision_deadline.hpp"
-#include "budget/message_set.hpp"
-#include "bus/frame_bits.hpp"
-#include "bus/in_process_link.hpp"
-#include "kick/kick_run.hpp"
+#include "sil/budget/decision_deadline.hpp"
+#include "sil/budget/message_set.hpp"
+#include "sil/bus/frame_bits.hpp"
+#include "sil/bus/in_process_link.hpp"
+#include "sil/kick/kick_run.hpp"
 
 namespace striker::sil {
 namespace {

@@ -7,9 +7,9 @@
 #include <map>
 #include <vector>
 
-#include "budget/response_time.hpp"
-#include "bus/arbitrated_bus.hpp"
-#include "bus/frame_bits.hpp"
+#include "sil/budget/response_time.hpp"
+#include "sil/bus/arbitrated_bus.hpp"
+#include "sil/bus/frame_bits.hpp"
 
 namespace striker::sil {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "can/codec.hpp"
+#include "firmware/can/codec.hpp"
 
 namespace {
 

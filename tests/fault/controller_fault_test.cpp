@@ -1,7 +1,7 @@
 // What the controller does when its inputs stop, or an operator stops it.
 #include <gtest/gtest.h>
 
-#include "fault/controller_rig.hpp"
+#include "tests/fault/controller_rig.hpp"
 
 namespace striker::core {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/controller.hpp"
+#include "firmware/core/controller.hpp"
 
 namespace striker::core {
 

@@ -1,7 +1,7 @@
 // Every protected frame that reaches the controller, broken in every way: ignored whole, and counted.
 #include <gtest/gtest.h>
 
-#include "fault/controller_rig.hpp"
+#include "tests/fault/controller_rig.hpp"
 
 namespace striker::core {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "bus/in_process_link.hpp"
-#include "kick/kick_run.hpp"
+#include "sil/bus/in_process_link.hpp"
+#include "sil/kick/kick_run.hpp"
 
 namespace striker::sil {
 namespace {

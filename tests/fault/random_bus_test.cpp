@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "fault/controller_rig.hpp"
+#include "tests/fault/controller_rig.hpp"
 
 namespace striker::core {
 namespace {

@@ -1,5 +1,5 @@
 // The drives' own watchdog and receive checks.
-#include "drives/wheel_drives.hpp"
+#include "sil/drives/wheel_drives.hpp"
 
 #include <gtest/gtest.h>
 

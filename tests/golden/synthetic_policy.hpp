@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/policy.hpp"
+#include "firmware/core/policy.hpp"
 
 namespace striker::core {
 

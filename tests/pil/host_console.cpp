@@ -4,7 +4,7 @@
 #include <cstring>
 #include <map>
 
-#include "ports/bare_metal/console.hpp"
+#include "firmware/ports/bare_metal/console.hpp"
 
 namespace striker::console {
 

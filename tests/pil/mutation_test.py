@@ -32,13 +32,13 @@ def altered_headers(copy, _):
 
 
 def compiles(copy, _):
-    return shell("g++", "-std=c++20", "-fsyntax-only", f"-I{copy}/firmware", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"',
+    return shell("g++", "-std=c++20", "-fsyntax-only", f"-I{copy}", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"',
                  f"{copy}/{CONTROLLER}")
 
 
 def host_instructions(copy, _):
     probe = f"{copy}/probe"
-    built = shell("g++", "-std=c++20", "-O2", f"-I{copy}/firmware", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"',
+    built = shell("g++", "-std=c++20", "-O2", f"-I{copy}", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"',
                   f"{copy}/tests/timing/kernel_probe.cpp", "-o", probe)
     return built if built.returncode != 0 else shell(f"{copy}/tests/timing/kernel_instructions_test.sh", probe)
 

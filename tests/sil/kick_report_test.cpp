@@ -1,4 +1,4 @@
-#include "report/kick_report.hpp"
+#include "sil/report/kick_report.hpp"
 
 #include <gtest/gtest.h>
 

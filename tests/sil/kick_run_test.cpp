@@ -1,12 +1,12 @@
 // The kick runner with the controller in process: same bytes for the same seed, episodes that stand alone.
-#include "kick/kick_run.hpp"
+#include "sil/kick/kick_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "bus/in_process_link.hpp"
+#include "sil/bus/in_process_link.hpp"
 
 namespace striker::sil {
 namespace {

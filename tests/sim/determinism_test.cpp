@@ -6,7 +6,7 @@
 #include <cstdarg>
 #include <cstring>
 
-#include "play.hpp"
+#include "tests/sim/play.hpp"
 
 namespace striker::sil {
 namespace {

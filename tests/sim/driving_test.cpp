@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "play.hpp"
+#include "tests/sim/play.hpp"
 
 namespace striker::sil {
 namespace {

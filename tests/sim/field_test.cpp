@@ -1,9 +1,9 @@
-#include "world/field.hpp"
+#include "sil/world/field.hpp"
 
 #include <gtest/gtest.h>
 
-#include "world/field_specs.hpp"
-#include "world/random.hpp"
+#include "sil/world/field_specs.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::sil {
 namespace {

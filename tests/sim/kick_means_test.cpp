@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "play.hpp"
-#include "report/kick_report.hpp"
+#include "tests/sim/play.hpp"
+#include "sil/report/kick_report.hpp"
 
 namespace striker::sil {
 namespace {

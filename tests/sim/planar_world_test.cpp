@@ -1,5 +1,5 @@
 // The fast world beside the full wheel bodies: on 1,000 random action sequences, in turns, at other steps.
-#include "world/planar_world.hpp"
+#include "sil/world/planar_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "play.hpp"
+#include "tests/sim/play.hpp"
 
 namespace striker::sil {
 namespace {

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "world/kick_task.hpp"
-#include "world/random.hpp"
-#include "world/robot_specs.hpp"
-#include "world/world.hpp"
+#include "sil/world/kick_task.hpp"
+#include "sil/world/random.hpp"
+#include "sil/world/robot_specs.hpp"
+#include "sil/world/world.hpp"
 
 namespace striker::sil {
 

@@ -1,4 +1,4 @@
-#include "world/random.hpp"
+#include "sil/world/random.hpp"
 
 #include <gtest/gtest.h>
 

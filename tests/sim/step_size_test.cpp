@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "play.hpp"
+#include "tests/sim/play.hpp"
 
 namespace striker::sil {
 namespace {

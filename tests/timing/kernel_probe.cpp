@@ -6,7 +6,7 @@
 #include <random>
 #include <string_view>
 
-#include "core/network.hpp"
+#include "firmware/core/network.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {

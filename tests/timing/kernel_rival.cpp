@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/network.hpp"
+#include "firmware/core/network.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <vector>
 
-#include "ports/linux/bench_peer.hpp"
-#include "ports/linux/executor.hpp"
-#include "ports/linux/overrun_limit.hpp"
+#include "firmware/ports/linux/bench_peer.hpp"
+#include "firmware/ports/linux/executor.hpp"
+#include "firmware/ports/linux/overrun_limit.hpp"
 
 namespace striker::linux_port {
 namespace {

@@ -1,7 +1,7 @@
 // Agreement and regret against the float network, and the file of decisions.
-#include "agreement.hpp"
+#include "training/agreement.hpp"
 
-#include "fixtures.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace striker::training {
 namespace {

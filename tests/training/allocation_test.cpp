@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "fixtures.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace {
 std::size_t allocations = 0;

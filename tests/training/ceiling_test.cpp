@@ -1,5 +1,5 @@
 // The ceiling is attained, and nothing is above it.
-#include "ceiling.hpp"
+#include "training/ceiling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "ceiling_run.hpp"
-#include "world/random.hpp"
+#include "training/ceiling_run.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::training {
 namespace {

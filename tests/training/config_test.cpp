@@ -1,7 +1,7 @@
 // The configuration: what is wrong is named.
-#include "config.hpp"
+#include "training/config.hpp"
 
-#include "fixtures.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace striker::training {
 namespace {

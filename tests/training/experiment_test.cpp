@@ -1,5 +1,5 @@
 // The experiment: its workers, its runs as files, its program from start to end.
-#include "experiment.hpp"
+#include "training/experiment.hpp"
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -8,9 +8,9 @@
 #include <csignal>
 #include <set>
 
-#include "experiment_summary.hpp"
-#include "fixtures.hpp"
-#include "workers.hpp"
+#include "training/experiment_summary.hpp"
+#include "tests/training/fixtures.hpp"
+#include "training/workers.hpp"
 
 namespace striker::training {
 namespace {

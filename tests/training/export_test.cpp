@@ -1,5 +1,5 @@
 // The exported header: it compiles, proves itself, and says the same twice.
-#include "export.hpp"
+#include "training/export.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "fixtures.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace striker::training {
 namespace {
@@ -41,7 +41,7 @@ bool compiles(const std::string& header, const std::string& assertions, const Te
       "#include \"core/policy_proof.hpp\"\n#include \"policy.hpp\"\nusing namespace striker;\n" + assertions);
   const std::string command = fmt::format(
       "{} -std=c++20 -fsyntax-only -Wall -Wextra -Wconversion -Wshadow -Werror -I{} -I{} {} 2> {}",
-      STRIKER_COMPILER, STRIKER_FIRMWARE, directory.string(), (directory / "proof.cpp").string(),
+      STRIKER_COMPILER, STRIKER_SOURCES, directory.string(), (directory / "proof.cpp").string(),
       (directory / "errors").string());
   return std::system(command.c_str()) == 0;
 }

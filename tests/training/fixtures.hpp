@@ -12,9 +12,9 @@
 #include <random>
 #include <string>
 
-#include "config.hpp"
-#include "model.hpp"
-#include "training_run.hpp"
+#include "training/config.hpp"
+#include "training/model.hpp"
+#include "training/training_run.hpp"
 
 namespace striker::training {
 

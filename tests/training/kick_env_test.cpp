@@ -1,12 +1,12 @@
 // The episodes that a learner and an evaluation meet.
-#include "kick_env.hpp"
+#include "training/kick_env.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "fixtures.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,13 +1,13 @@
 // Models as files: the project's own and other people's.
-#include "model.hpp"
+#include "training/model.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "fixtures.hpp"
-#include "safetensors.hpp"
+#include "tests/training/fixtures.hpp"
+#include "training/safetensors.hpp"
 
 namespace striker::training {
 namespace {

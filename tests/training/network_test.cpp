@@ -1,5 +1,5 @@
 // The network's forward and backward pass, and Adam.
-#include "network.hpp"
+#include "training/network.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "fixtures.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,12 +1,12 @@
 // The quantiser: the proof holds, the ranges are kept, and the choices stay.
-#include "quantise.hpp"
+#include "training/quantise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "agreement.hpp"
-#include "fixtures.hpp"
+#include "training/agreement.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,12 +1,12 @@
 // The replay buffer, the n-step returns and the priorities.
-#include "replay.hpp"
+#include "training/replay.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "priorities.hpp"
+#include "training/priorities.hpp"
 
 namespace striker::training {
 namespace {

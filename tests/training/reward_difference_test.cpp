@@ -1,11 +1,11 @@
 // The reward that an integer network loses against the float one, in paired episodes.
-#include "reward_difference.hpp"
+#include "training/reward_difference.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fixtures.hpp"
-#include "quantise.hpp"
+#include "tests/training/fixtures.hpp"
+#include "training/quantise.hpp"
 
 namespace striker::training {
 namespace {

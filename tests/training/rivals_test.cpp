@@ -1,11 +1,11 @@
 // The scripted rivals, and where the interceptor's parameters come from.
-#include "rivals.hpp"
+#include "training/rivals.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "world/random.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::training {
 namespace {

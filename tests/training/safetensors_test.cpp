@@ -1,12 +1,12 @@
 // The safetensors reader and writer: round trips, and every malformed file refused in one line.
-#include "safetensors.hpp"
+#include "training/safetensors.hpp"
 
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "fixtures.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,5 +1,5 @@
 // Statistics over runs: against their definitions, and what an interval promises.
-#include "statistics.hpp"
+#include "training/statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "world/random.hpp"
+#include "sil/world/random.hpp"
 
 namespace striker::training {
 namespace {

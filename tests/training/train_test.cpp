@@ -1,8 +1,8 @@
 // The learner as a whole.
 #include <gtest/gtest.h>
 
-#include "fixtures.hpp"
-#include "training_run.hpp"
+#include "tests/training/fixtures.hpp"
+#include "training/training_run.hpp"
 
 namespace striker::training {
 namespace {

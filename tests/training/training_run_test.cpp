@@ -1,11 +1,11 @@
 // A training as a directory: interrupted, resumed, damaged.
-#include "training_run.hpp"
+#include "training/training_run.hpp"
 
 #include <sys/resource.h>
 
 #include <csignal>
 
-#include "fixtures.hpp"
+#include "tests/training/fixtures.hpp"
 
 namespace striker::training {
 namespace {

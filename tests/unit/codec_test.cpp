@@ -1,5 +1,5 @@
 // The message table's packing and receive checks, for every message, by property.
-#include "can/codec.hpp"
+#include "firmware/can/codec.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // The independent check by property: what gets through never moves without a cause, a limit or a sane wheel.
-#include "core/command_check.hpp"
+#include "firmware/core/command_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <random>
 
-#include "core/wheel_loop.hpp"
+#include "firmware/core/wheel_loop.hpp"
 
 namespace striker::core {
 namespace {

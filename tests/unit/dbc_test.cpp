@@ -1,5 +1,5 @@
 // The committed DBC is what the message table prints.
-#include "can/dbc.hpp"
+#include "firmware/can/dbc.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The estimator on ideal pictures: exact velocities, lead between pictures, and nothing kept after a reset.
-#include "core/estimator.hpp"
+#include "firmware/core/estimator.hpp"
 
 #include <gtest/gtest.h>
 

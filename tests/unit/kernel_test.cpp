@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "core/kernel/portable.hpp"
-#include "core/network.hpp"
-#include "core/policy_proof.hpp"
-#include "golden/synthetic_policy.hpp"
+#include "firmware/core/kernel/portable.hpp"
+#include "firmware/core/network.hpp"
+#include "firmware/core/policy_proof.hpp"
+#include "tests/golden/synthetic_policy.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace striker::core {

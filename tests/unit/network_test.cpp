@@ -1,6 +1,6 @@
 // The kernel against a plain 64-bit reference written from the specification in policy.hpp, on the built-in
 // policy: random, saturating and adversarial inputs, and the header's golden vectors.
-#include "core/network.hpp"
+#include "firmware/core/network.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "core/policy_proof.hpp"
+#include "firmware/core/policy_proof.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace striker::core {

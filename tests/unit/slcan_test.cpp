@@ -1,5 +1,5 @@
 // Frames as lines of a serial CAN adapter, and back; what is no frame is ignored.
-#include "ports/bare_metal/slcan.hpp"
+#include "firmware/ports/bare_metal/slcan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The supervisor over every state, fault and combination of conditions: what must never happen does not.
-#include "core/supervisor.hpp"
+#include "firmware/core/supervisor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The wheel loop on the plant it was tuned for: limits, no wind-up, no steady error.
-#include "core/wheel_loop.hpp"
+#include "firmware/core/wheel_loop.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 // the ratios.
 #include <benchmark/benchmark.h>
 
-#include "dqn.hpp"
-#include "training_run.hpp"
+#include "training/dqn.hpp"
+#include "training/training_run.hpp"
 
 namespace striker::training {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/kernel/byte_rows.hpp"
-#include "core/kernel/scalar.hpp"
+#include "firmware/core/kernel/byte_rows.hpp"
+#include "firmware/core/kernel/scalar.hpp"
 
 namespace striker::core::kernel {
 

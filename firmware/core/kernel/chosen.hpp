@@ -7,20 +7,20 @@
 #include <type_traits>
 
 #if defined(__OPTIMIZE__) && defined(__arm__) && (__ARM_FEATURE_MVE & 1)
-#include "core/kernel/mve.hpp"
-#include "core/kernel/mve_bytes.hpp"
+#include "firmware/core/kernel/mve.hpp"
+#include "firmware/core/kernel/mve_bytes.hpp"
 #elif defined(__OPTIMIZE__) && defined(__ARM_FEATURE_DSP)
-#include "core/kernel/dsp.hpp"
-#include "core/kernel/dsp_bytes.hpp"
+#include "firmware/core/kernel/dsp.hpp"
+#include "firmware/core/kernel/dsp_bytes.hpp"
 #elif defined(__OPTIMIZE__) && defined(__arm__)
-#include "core/kernel/bytes.hpp"
-#include "core/kernel/mla.hpp"
+#include "firmware/core/kernel/bytes.hpp"
+#include "firmware/core/kernel/mla.hpp"
 #elif defined(__SSE2__)
-#include "core/kernel/bytes.hpp"
-#include "core/kernel/x86.hpp"
+#include "firmware/core/kernel/bytes.hpp"
+#include "firmware/core/kernel/x86.hpp"
 #else
-#include "core/kernel/bytes.hpp"
-#include "core/kernel/portable.hpp"
+#include "firmware/core/kernel/bytes.hpp"
+#include "firmware/core/kernel/portable.hpp"
 #endif
 
 namespace striker::core::kernel {

@@ -13,8 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/kernel/scalar.hpp"
-#include "core/kernel/stream.hpp"
+#include "firmware/core/kernel/scalar.hpp"
+#include "firmware/core/kernel/stream.hpp"
 
 namespace striker::core::kernel {
 

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/kernel/byte_rows.hpp"
-#include "core/kernel/mve.hpp"
-#include "core/kernel/stream.hpp"
+#include "firmware/core/kernel/byte_rows.hpp"
+#include "firmware/core/kernel/mve.hpp"
+#include "firmware/core/kernel/stream.hpp"
 
 namespace striker::core::kernel {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/kernel/scalar.hpp"
+#include "firmware/core/kernel/scalar.hpp"
 
 namespace striker::core::kernel {
 

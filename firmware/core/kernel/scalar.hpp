@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/policy.hpp"
+#include "firmware/core/policy.hpp"
 
 namespace striker::core::kernel {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/policy.hpp"
+#include "firmware/core/policy.hpp"
 
 namespace striker::core::kernel {
 

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/kernel/scalar.hpp"
-#include "core/kernel/stream.hpp"
+#include "firmware/core/kernel/scalar.hpp"
+#include "firmware/core/kernel/stream.hpp"
 
 namespace striker::core::kernel {
 

@@ -11,14 +11,14 @@
 #include <numeric>
 #include <type_traits>
 
-#include "core/kernel/portable.hpp"
-#include "core/network.hpp"
-#include "golden/synthetic_policy.hpp"
-#include "ports/bare_metal/console.hpp"
-#include "ports/bare_metal/instruction_counter.hpp"
-#include "ports/bare_metal/memory.hpp"
-#include "ports/bare_metal/replay.hpp"
-#include "ports/bare_metal/step_search.hpp"
+#include "firmware/core/kernel/portable.hpp"
+#include "firmware/core/network.hpp"
+#include "tests/golden/synthetic_policy.hpp"
+#include "firmware/ports/bare_metal/console.hpp"
+#include "firmware/ports/bare_metal/instruction_counter.hpp"
+#include "firmware/ports/bare_metal/memory.hpp"
+#include "firmware/ports/bare_metal/replay.hpp"
+#include "firmware/ports/bare_metal/step_search.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {

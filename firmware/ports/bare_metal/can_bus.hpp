@@ -2,7 +2,7 @@
 // boards that QEMU has bring none but serial ports: slcan_bus.cpp, which they use, speaks slcan over one.
 #pragma once
 
-#include "can/frame.hpp"
+#include "firmware/can/frame.hpp"
 
 namespace striker::bare_metal {
 

@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/controller.hpp"
-#include "core/network.hpp"
-#include "core/policy_proof.hpp"
-#include "core/relative_state.hpp"
-#include "golden/synthetic_policy.hpp"
-#include "ports/bare_metal/console.hpp"
-#include "ports/bare_metal/replay.hpp"
+#include "firmware/core/controller.hpp"
+#include "firmware/core/network.hpp"
+#include "firmware/core/policy_proof.hpp"
+#include "firmware/core/relative_state.hpp"
+#include "tests/golden/synthetic_policy.hpp"
+#include "firmware/ports/bare_metal/console.hpp"
+#include "firmware/ports/bare_metal/replay.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {

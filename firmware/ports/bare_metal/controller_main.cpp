@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/controller.hpp"
-#include "ports/bare_metal/can_bus.hpp"
-#include "ports/bare_metal/clock.hpp"
+#include "firmware/core/controller.hpp"
+#include "firmware/ports/bare_metal/can_bus.hpp"
+#include "firmware/ports/bare_metal/clock.hpp"
 
 namespace {
 

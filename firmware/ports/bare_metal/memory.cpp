@@ -1,4 +1,4 @@
-#include "ports/bare_metal/memory.hpp"
+#include "firmware/ports/bare_metal/memory.hpp"
 
 extern "C" {
 // From the linker script: addresses, not values.

@@ -8,8 +8,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/sync_clock.hpp"
-#include "ports/bare_metal/console.hpp"
+#include "firmware/core/sync_clock.hpp"
+#include "firmware/ports/bare_metal/console.hpp"
 
 namespace striker::bare_metal {
 

@@ -1,4 +1,4 @@
-#include "ports/bare_metal/console.hpp"
+#include "firmware/ports/bare_metal/console.hpp"
 
 #include <array>
 #include <cstring>

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "can/frame.hpp"
+#include "firmware/can/frame.hpp"
 
 namespace striker::bare_metal {
 

@@ -1,6 +1,6 @@
-#include "ports/bare_metal/can_bus.hpp"
-#include "ports/bare_metal/slcan.hpp"
-#include "ports/bare_metal/uart.hpp"
+#include "firmware/ports/bare_metal/can_bus.hpp"
+#include "firmware/ports/bare_metal/slcan.hpp"
+#include "firmware/ports/bare_metal/uart.hpp"
 
 namespace striker::bare_metal {
 

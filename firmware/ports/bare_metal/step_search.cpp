@@ -1,11 +1,11 @@
-#include "ports/bare_metal/step_search.hpp"
+#include "firmware/ports/bare_metal/step_search.hpp"
 
 #include <array>
 #include <span>
 
-#include "core/controller.hpp"
-#include "golden/synthetic_policy.hpp"
-#include "ports/bare_metal/instruction_counter.hpp"
+#include "firmware/core/controller.hpp"
+#include "tests/golden/synthetic_policy.hpp"
+#include "firmware/ports/bare_metal/instruction_counter.hpp"
 
 namespace striker::bare_metal {
 

@@ -1,7 +1,7 @@
 // The serial port of Arm's MPS2 and MPS3 boards (CMSDK APB UART: Arm DDI 0479, 4.3); STRIKER_UART says where.
 #include <cstdint>
 
-#include "ports/bare_metal/uart.hpp"
+#include "firmware/ports/bare_metal/uart.hpp"
 
 namespace striker::bare_metal::uart {
 

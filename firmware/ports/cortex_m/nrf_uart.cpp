@@ -2,7 +2,7 @@
 // pins.
 #include <cstdint>
 
-#include "ports/bare_metal/uart.hpp"
+#include "firmware/ports/bare_metal/uart.hpp"
 
 namespace striker::bare_metal::uart {
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include "ports/bare_metal/memory.hpp"
+#include "firmware/ports/bare_metal/memory.hpp"
 
 extern "C" {
 extern std::uint32_t stack_top;

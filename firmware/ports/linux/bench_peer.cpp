@@ -1,4 +1,4 @@
-#include "ports/linux/bench_peer.hpp"
+#include "firmware/ports/linux/bench_peer.hpp"
 
 namespace striker::linux_port {
 

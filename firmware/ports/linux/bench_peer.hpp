@@ -3,8 +3,8 @@
 // kick runs, without a world.
 #pragma once
 
-#include "can/codec.hpp"
-#include "ports/linux/in_process_bus.hpp"
+#include "firmware/can/codec.hpp"
+#include "firmware/ports/linux/in_process_bus.hpp"
 
 namespace striker::linux_port {
 

@@ -1,4 +1,4 @@
-#include "ports/linux/can_socket.hpp"
+#include "firmware/ports/linux/can_socket.hpp"
 
 #include <linux/can/error.h>
 #include <linux/can/raw.h>

@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-#include "can/frame.hpp"
+#include "firmware/can/frame.hpp"
 
 namespace striker::linux_port {
 

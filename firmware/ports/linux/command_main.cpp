@@ -10,8 +10,8 @@
 #include <string>
 #include <thread>
 
-#include "can/codec.hpp"
-#include "ports/linux/can_socket.hpp"
+#include "firmware/can/codec.hpp"
+#include "firmware/ports/linux/can_socket.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "can/dbc.hpp"
+#include "firmware/can/dbc.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("Prints the message table as a DBC file, for candump users, cantools, canmatrix, SavvyCAN.",

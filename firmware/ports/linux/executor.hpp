@@ -7,11 +7,11 @@
 #include <chrono>
 #include <cstdint>
 
-#include "can/messages.hpp"
-#include "ports/linux/can_socket.hpp"
-#include "ports/linux/frame_bus.hpp"
-#include "ports/linux/loop_timing.hpp"
-#include "ports/linux/periodic_clock.hpp"
+#include "firmware/can/messages.hpp"
+#include "firmware/ports/linux/can_socket.hpp"
+#include "firmware/ports/linux/frame_bus.hpp"
+#include "firmware/ports/linux/loop_timing.hpp"
+#include "firmware/ports/linux/periodic_clock.hpp"
 
 namespace striker::linux_port {
 

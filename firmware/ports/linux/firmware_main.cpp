@@ -10,12 +10,12 @@
 #include <string>
 #include <thread>
 
-#include "ports/linux/bench_peer.hpp"
-#include "ports/linux/executor.hpp"
-#include "ports/linux/outbox.hpp"
-#include "ports/linux/real_time.hpp"
-#include "ports/linux/real_time_socket.hpp"
-#include "ports/linux/stop_signal.hpp"
+#include "firmware/ports/linux/bench_peer.hpp"
+#include "firmware/ports/linux/executor.hpp"
+#include "firmware/ports/linux/outbox.hpp"
+#include "firmware/ports/linux/real_time.hpp"
+#include "firmware/ports/linux/real_time_socket.hpp"
+#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "can/frame.hpp"
+#include "firmware/can/frame.hpp"
 
 namespace striker::linux_port {
 

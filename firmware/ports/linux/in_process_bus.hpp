@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "ports/linux/frame_bus.hpp"
+#include "firmware/ports/linux/frame_bus.hpp"
 
 namespace striker::linux_port {
 

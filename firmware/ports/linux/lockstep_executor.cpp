@@ -1,7 +1,7 @@
-#include "core/sync_clock.hpp"
-#include "ports/linux/executor.hpp"
-#include "ports/linux/outbox.hpp"
-#include "ports/linux/stop_signal.hpp"
+#include "firmware/core/sync_clock.hpp"
+#include "firmware/ports/linux/executor.hpp"
+#include "firmware/ports/linux/outbox.hpp"
+#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace striker::linux_port {
 

@@ -1,4 +1,4 @@
-#include "ports/linux/loop_timing.hpp"
+#include "firmware/ports/linux/loop_timing.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "can/messages.hpp"
-#include "ports/linux/latency_histogram.hpp"
+#include "firmware/can/messages.hpp"
+#include "firmware/ports/linux/latency_histogram.hpp"
 
 namespace striker::linux_port {
 

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "core/controller.hpp"
-#include "ports/linux/can_socket.hpp"
+#include "firmware/core/controller.hpp"
+#include "firmware/ports/linux/can_socket.hpp"
 
 namespace striker::linux_port {
 

@@ -1,4 +1,4 @@
-#include "ports/linux/periodic_clock.hpp"
+#include "firmware/ports/linux/periodic_clock.hpp"
 
 #include <cerrno>
 

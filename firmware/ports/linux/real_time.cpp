@@ -1,4 +1,4 @@
-#include "ports/linux/real_time.hpp"
+#include "firmware/ports/linux/real_time.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -2,10 +2,10 @@
 #include <array>
 #include <span>
 
-#include "core/controller.hpp"
-#include "ports/linux/executor.hpp"
-#include "ports/linux/overrun_limit.hpp"
-#include "ports/linux/stop_signal.hpp"
+#include "firmware/core/controller.hpp"
+#include "firmware/ports/linux/executor.hpp"
+#include "firmware/ports/linux/overrun_limit.hpp"
+#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace striker::linux_port {
 

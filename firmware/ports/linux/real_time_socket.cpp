@@ -1,4 +1,4 @@
-#include "ports/linux/real_time_socket.hpp"
+#include "firmware/ports/linux/real_time_socket.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -8,8 +8,8 @@
 #include <array>
 #include <string>
 
-#include "ports/linux/can_socket.hpp"
-#include "ports/linux/frame_bus.hpp"
+#include "firmware/ports/linux/can_socket.hpp"
+#include "firmware/ports/linux/frame_bus.hpp"
 
 namespace striker::linux_port {
 

@@ -1,4 +1,4 @@
-#include "ports/linux/stop_signal.hpp"
+#include "firmware/ports/linux/stop_signal.hpp"
 
 #include <csignal>
 

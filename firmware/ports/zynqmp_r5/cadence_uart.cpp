@@ -1,7 +1,7 @@
 // The first UART of the Zynq UltraScale+ (AMD UG1087, module UART), as the boot loader left its baud rate.
 #include <cstdint>
 
-#include "ports/bare_metal/uart.hpp"
+#include "firmware/ports/bare_metal/uart.hpp"
 
 namespace striker::bare_metal::uart {
 

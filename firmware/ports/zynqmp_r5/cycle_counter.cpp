@@ -1,6 +1,6 @@
 // The performance monitors' cycle counter (Armv7-R Architecture Reference Manual, chapter C12). QEMU runs it
 // at 1 GHz of virtual time: an instruction a count.
-#include "ports/bare_metal/instruction_counter.hpp"
+#include "firmware/ports/bare_metal/instruction_counter.hpp"
 
 namespace striker::bare_metal {
 

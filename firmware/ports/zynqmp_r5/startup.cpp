@@ -4,7 +4,7 @@
 // memory's.
 #include <cstdint>
 
-#include "ports/bare_metal/memory.hpp"
+#include "firmware/ports/bare_metal/memory.hpp"
 
 extern "C" {
 int main();

@@ -1,6 +1,6 @@
 // Ticks from the first triple timer counter (AMD UG1087, module TTC), which runs at the low-power domain's
 // 100 MHz and wraps after 42 s: asked more often than that, it misses nothing.
-#include "ports/bare_metal/clock.hpp"
+#include "firmware/ports/bare_metal/clock.hpp"
 
 namespace striker::bare_metal {
 
