@@ -11,6 +11,9 @@
 #include <optional>
 #include <string>
 
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/periodic_clock.hpp"
+#include "firmware/host/stop_signal.hpp"
 #include "sil/bus/bit_rate.hpp"
 #include "sil/bus/candump_log.hpp"
 #include "sil/bus/in_process_link.hpp"
@@ -18,8 +21,6 @@
 #include "sil/bus/timed_link.hpp"
 #include "sil/kick/decision_csv.hpp"
 #include "sil/kick/kick_run.hpp"
-#include "firmware/ports/linux/periodic_clock.hpp"
-#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace {
 
@@ -108,8 +109,8 @@ class Pacer {
   }
 
  private:
-  linux_port::MonotonicClock monotonic_;
-  linux_port::PeriodicClock clock_{monotonic_};
+  host::MonotonicClock monotonic_;
+  host::PeriodicClock clock_{monotonic_};
   std::int64_t ticks_ = 0;
   std::uint64_t missed_ = 0;
   std::int64_t lateness_max_ns_ = 0;
@@ -166,7 +167,7 @@ std::unique_ptr<ControllerLink> open_link(const Options& options) {
 }
 
 // A tick's frames: as they were received on the bus in time, or all at the tick.
-void log_tick(AtomicFile& log, const TickRecord& record, const std::optional<TimedLink>& timed) {
+void log_tick(host::AtomicFile& log, const TickRecord& record, const std::optional<TimedLink>& timed) {
   if (timed) {
     for (const StampedFrame& seen : timed->seen()) {
       write_candump(log, seen.received_ns / 1000, seen.frame);
@@ -193,7 +194,7 @@ int play_kicks(const Options& options) {
   if (!options.decisions.empty() && in_process == nullptr) {
     throw std::runtime_error("--decisions reads the controller's own state: use it with --bus inproc");
   }
-  std::optional<AtomicFile> log;
+  std::optional<host::AtomicFile> log;
   std::optional<DecisionCsv> decisions;
   std::optional<Pacer> pacer;
   std::optional<TimedLink> timed;
@@ -230,7 +231,7 @@ int play_kicks(const Options& options) {
                            }
                          },
                      .end_episode = [&](const KickOutcome&) { progress.episode_done(); },
-                     .stop = linux_port::stop_requested});
+                     .stop = host::stop_requested});
   const auto start = std::chrono::steady_clock::now();
   runner.run();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
@@ -260,7 +261,7 @@ int play_kicks(const Options& options) {
   if (!options.json.empty()) {
     write_json(run, options.json);
   }
-  if (linux_port::stop_requested()) {
+  if (host::stop_requested()) {
     fmt::print(stderr, "striker-sil: stopped after {} of {} episodes; they are kept\n", run.episodes.size(),
                options.episodes);
     return 130;
@@ -276,16 +277,8 @@ int main(int argc, char** argv) {
   CLI::App* kick = app.add_subcommand("kick", "play the official kick task");
   Options options;
   define(*kick, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    linux_port::catch_stop_signals();
+  return host::run(app, argc, argv, [&] {
+    host::catch_stop_signals();
     return play_kicks(options);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "striker-sil: {}\n", error.what());
-    return 2;
-  }
+  });
 }

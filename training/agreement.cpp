@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 
 namespace striker::training {
 
@@ -71,7 +71,7 @@ Agreement agreement(const Parameters& parameters, const StateInputs& inputs,
 }
 
 std::vector<Decision> load_decisions(const std::filesystem::path& file, const Shape& shape) {
-  std::istringstream stream(read_file(file));
+  std::istringstream stream(host::read_file(file));
   std::string line;
   Row row(first_state_column + static_cast<std::size_t>(shape.inputs));
   const bool starts = std::getline(stream, line) && line.starts_with(header_start);

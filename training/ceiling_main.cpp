@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <thread>
 
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/files.hpp"
+#include "firmware/host/progress.hpp"
+#include "firmware/host/stop_signal.hpp"
 #include "training/ceiling_run.hpp"
-#include "training/cli.hpp"
-#include "training/files.hpp"
-#include "training/interrupt.hpp"
-#include "training/progress.hpp"
 
 namespace striker::training {
 
@@ -31,27 +31,27 @@ int find_ceiling(Options options) {
   run.replay = options.replay == "fast" ? World::fast : World::full;
   run.grid = {.position_cell_m = options.position_cell_mm * 1e-3,
               .speed_cell_m_s = options.speed_cell_mm_s * 1e-3};
-  watch_for_interrupt();
+  host::catch_stop_signals();
   const Reachable reachable(run.grid);
-  ProgressLine line("episode", run.episodes);
+  host::ProgressLine line("episode", run.episodes);
   int shown = 0;
   const auto episodes = run_ceiling(run, reachable, [&](int done) {
     if (done > shown && line.due(done)) {
       line.show(done, "");
       shown = done;
     }
-    return !interrupted();
+    return !host::stop_requested();
   });
   line.finish();
   if (episodes.empty()) {
     fmt::print(stderr, "striker-ceiling: interrupted, nothing is written\n");
-    return exit_interrupted;
+    return host::exit_interrupted;
   }
   if (!options.json.empty()) {
-    write_file(options.json, ceiling_json(run, episodes));
+    host::write_file(options.json, ceiling_json(run, episodes));
   }
   if (!options.csv.empty()) {
-    write_file(options.csv, ceiling_csv(run, episodes));
+    host::write_file(options.csv, ceiling_csv(run, episodes));
   }
   fmt::print("{}", ceiling_table(run, episodes));
   return 0;
@@ -96,5 +96,5 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--json", options.json, "write the figures to this file");
   app.add_option("--csv", options.csv, "write a row an episode to this file, with the actions");
-  return run(app, argc, argv, [&] { return find_ceiling(options); });
+  return host::run(app, argc, argv, [&] { return find_ceiling(options); });
 }

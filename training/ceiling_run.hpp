@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "training/ceiling.hpp"
 #include "sil/report/kick_report.hpp"
+#include "training/ceiling.hpp"
 #include "training/rivals.hpp"
 
 namespace striker::training {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 #include "training/safetensors.hpp"
 
 namespace striker::training {
@@ -161,12 +161,12 @@ void save_checkpoint(const std::filesystem::path& file, const Config& config, st
   if (run.best_episodes > 0) {
     checkpoint.tensors.push_back(tensor_of("best", run.best_values));
   }
-  write_file(file, write_safetensors(checkpoint));
+  host::write_file(file, write_safetensors(checkpoint));
 }
 
 RunState load_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
                          Learner& learner) {
-  const SafeTensors checkpoint = read_safetensors(read_file(file), file.string());
+  const SafeTensors checkpoint = read_safetensors(host::read_file(file), file.string());
   try {
     return restore(checkpoint, config, seed, learner);
   } catch (const std::exception& error) {

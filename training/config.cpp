@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 #include "paper_toml.hpp"
 
 namespace striker::training {
@@ -342,7 +342,7 @@ Config parse_config(std::string_view text, const std::string& file, const std::v
 }
 
 Config load_config(const std::filesystem::path& file, const std::vector<std::string>& changes) {
-  return parse_config(read_file(file), file.string(), changes);
+  return parse_config(host::read_file(file), file.string(), changes);
 }
 
 }  // namespace striker::training

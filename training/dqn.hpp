@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "sil/world/random.hpp"
 #include "training/config.hpp"
 #include "training/network.hpp"
 #include "training/priorities.hpp"
 #include "training/replay.hpp"
 #include "training/safetensors.hpp"
-#include "sil/world/random.hpp"
 
 namespace striker::training {
 

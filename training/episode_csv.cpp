@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 
 namespace striker::training {
 
@@ -32,11 +32,11 @@ void EpisodeCsv::reserve(int rows) {
 }
 
 void EpisodeCsv::write() const {
-  write_file(file_, text_);
+  host::write_file(file_, text_);
 }
 
 std::string EpisodeCsv::content() const {
-  std::string text = read_file(file_);
+  std::string text = host::read_file(file_);
   if (!text.starts_with(header_)) {
     throw std::runtime_error(fmt::format("{}: line 1 is not \"{}\"; it is not this program's table",
                                          file_.string(), header_.substr(0, header_.size() - 1)));

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/files.hpp"
+#include "sil/report/kick_report.hpp"
 #include "training/agreement.hpp"
-#include "training/cli.hpp"
-#include "training/files.hpp"
 #include "training/kick_env.hpp"
 #include "training/model.hpp"
-#include "sil/report/kick_report.hpp"
 
 namespace striker::training {
 
@@ -67,7 +67,7 @@ int evaluate_decisions(const Options& options, const Model& model, const EnvConf
                                            {"clear_states", result.clear_states},
                                            {"clear_agreement", result.clear_agreement},
                                            {"mean_regret", result.mean_regret}};
-    write_file(options.json, report.dump(2) + "\n");
+    host::write_file(options.json, report.dump(2) + "\n");
   }
   fmt::print(
       "states before contact      {}\nagreement, all states      {:.4f}\n"
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   auto* decisions = app.add_option("--decisions", options.decisions, "CSV file of a controller's decisions");
   app.add_option("--json", options.json, "write the figures to this file");
   episodes->needs(seed)->excludes(decisions);
-  return run(app, argc, argv, [&] {
+  return host::run(app, argc, argv, [&] {
     if (!*episodes && !*decisions) {
       throw std::runtime_error("give --episodes and --seed, or --decisions");
     }

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 #include "training/hash.hpp"
 #include "training/model.hpp"
 #include "training/training_run.hpp"
@@ -58,7 +58,7 @@ double evaluate(const EnvConfig& task, sil::PoseMode pose, const Parameters& par
 }
 
 std::vector<double> read_curve(const std::filesystem::path& file, const SeedRun& run) {
-  std::istringstream lines(read_file(file));
+  std::istringstream lines(host::read_file(file));
   std::string line;
   std::vector<double> rewards;
   if (!std::getline(lines, line) || line + "\n" != curve_header) {
@@ -137,7 +137,7 @@ std::array<std::filesystem::path, 3> files_of(const SeedRun& run, const std::fil
 
 void carry_out(const SeedRun& run, const std::filesystem::path& directory) {
   const auto [curve_file, model_file, figures_file] = files_of(run, directory);
-  require_writable(curve_file.parent_path());
+  host::require_writable(curve_file.parent_path());
   Training training(run.variant->config, run.seed);
   std::string curve = curve_header;
   while (!training.done()) {
@@ -156,9 +156,9 @@ void carry_out(const SeedRun& run, const std::filesystem::path& directory) {
       {"evaluation_episodes", evaluation_episodes},
       {"origin_mean", evaluate(task, sil::PoseMode::origin, model.parameters)},
       {"anywhere_mean", evaluate(task, sil::PoseMode::anywhere, model.parameters)}};
-  write_file(curve_file, curve);
+  host::write_file(curve_file, curve);
   save_model(model, model_file);
-  write_file(figures_file, figures.dump(2) + "\n");
+  host::write_file(figures_file, figures.dump(2) + "\n");
 }
 
 std::optional<RunFigures> load_run(const SeedRun& run, const std::filesystem::path& directory) {
@@ -166,7 +166,7 @@ std::optional<RunFigures> load_run(const SeedRun& run, const std::filesystem::pa
   if (!std::filesystem::exists(figures_file)) {
     return std::nullopt;
   }
-  const auto figures = nlohmann::json::parse(read_file(figures_file), nullptr, false);
+  const auto figures = nlohmann::json::parse(host::read_file(figures_file), nullptr, false);
   if (!figures.is_object() || !figures.contains("anywhere_mean") || !figures.contains("identity")) {
     refuse(figures_file, "not the figures of a run", run);
   }

@@ -9,12 +9,12 @@
 #include <string>
 #include <thread>
 
-#include "training/cli.hpp"
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/files.hpp"
+#include "firmware/host/progress.hpp"
+#include "firmware/host/stop_signal.hpp"
 #include "training/experiment.hpp"
 #include "training/experiment_summary.hpp"
-#include "training/files.hpp"
-#include "training/interrupt.hpp"
-#include "training/progress.hpp"
 #include "training/ranks.hpp"
 #include "training/workers.hpp"
 
@@ -57,7 +57,7 @@ struct Experiment {
 };
 
 Experiment make_experiment(const Options& options, const Kind& kind) {
-  const std::string text = options.config.empty() ? "" : read_file(options.config);
+  const std::string text = options.config.empty() ? "" : host::read_file(options.config);
   const std::string name = options.config.empty() ? "paper.toml" : options.config.string();
   const std::string base = parse_config(text, name, options.changes).text;
   Experiment experiment;
@@ -83,7 +83,7 @@ int carry_out_all(const Experiment& experiment, const Options& options, const Ra
       tasks.push_back(i);
     }
   }
-  ProgressLine line("run", static_cast<std::int64_t>(tasks.size()));
+  host::ProgressLine line("run", static_cast<std::int64_t>(tasks.size()));
   std::int64_t done = 0;
   const auto failures = run_workers(
       tasks, options.jobs, [&](std::size_t i) { carry_out(experiment.runs[i], options.out); },
@@ -92,10 +92,10 @@ int carry_out_all(const Experiment& experiment, const Options& options, const Ra
         files.insert(files.end(), paths.begin(), paths.end());
         line.show(++done, name_of(experiment.runs[i]));
       },
-      interrupted);
+      host::stop_requested);
   line.finish();
   for (const WorkerFailure& failure : failures) {
-    if (!interrupted()) {
+    if (!host::stop_requested()) {
       fmt::print(stderr, "striker-experiment: {}: {}\n", name_of(experiment.runs[failure.task]), failure.why);
     }
   }
@@ -140,14 +140,14 @@ int summarise_all(const Experiment& experiment, const Options& options, const Ki
         stderr,
         "striker-experiment: {} of {} runs are complete and kept; the same command goes on with the rest\n",
         experiment.runs.size() - missing, experiment.runs.size());
-    return interrupted() ? exit_interrupted : exit_failed_runs;
+    return host::stop_requested() ? host::exit_interrupted : exit_failed_runs;
   }
   const auto summaries = summarise(experiment.variants, runs, options.ceiling);
   write_summary(summaries, options.ceiling, options.out);
-  fmt::print("{}", read_file(options.out / "summary.md"));
+  fmt::print("{}", host::read_file(options.out / "summary.md"));
   if (kind.table_of != nullptr) {
     const std::string table = kind.table_of(summaries);
-    write_file(options.out / kind.table, table);
+    host::write_file(options.out / kind.table, table);
     fmt::print("\n{}", table);
   }
   if (options.figures) {
@@ -164,8 +164,8 @@ int carry_out_experiment(Options options, const Kind& kind) {
   }
   Experiment experiment = make_experiment(options, kind);
   add_runs(experiment, options.seeds);
-  require_writable(options.out);
-  watch_for_interrupt();
+  host::require_writable(options.out);
+  host::catch_stop_signals();
   const int failures = carry_out_all(experiment, options, ranks);
   if (ranks.rank() > 0) {
     return failures > 0 ? exit_failed_runs : 0;
@@ -214,7 +214,7 @@ int main(int argc, char** argv) {
     add_options(*app.add_subcommand(kind.name, kind.says), options);
   }
   app.require_subcommand(1);
-  return run(app, argc, argv, [&] {
+  return host::run(app, argc, argv, [&] {
     const auto chosen = std::find_if(kinds.begin(), kinds.end(),
                                      [&](const Kind& kind) { return app.got_subcommand(kind.name); });
     return carry_out_experiment(options, *chosen);

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 #include "training/training_run.hpp"
 
 namespace striker::training {
@@ -220,9 +220,9 @@ std::vector<VariantSummary> summarise(const std::vector<Variant>& variants,
 
 void write_summary(const std::vector<VariantSummary>& summaries, double ceiling,
                    const std::filesystem::path& directory) {
-  write_file(directory / "summary.csv", summary_csv(summaries));
-  write_file(directory / "curves.csv", curves_csv(summaries));
-  write_file(directory / "summary.md", summary_table(summaries, ceiling));
+  host::write_file(directory / "summary.csv", summary_csv(summaries));
+  host::write_file(directory / "curves.csv", curves_csv(summaries));
+  host::write_file(directory / "summary.md", summary_table(summaries, ceiling));
 }
 
 std::string claims_table(const std::vector<VariantSummary>& summaries) {

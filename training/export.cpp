@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "training/hash.hpp"
 #include "sil/world/random.hpp"
+#include "training/hash.hpp"
 
 namespace striker::training {
 

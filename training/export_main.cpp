@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "training/cli.hpp"
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/files.hpp"
 #include "training/export.hpp"
-#include "training/files.hpp"
 
 namespace striker::training {
 
@@ -24,9 +24,9 @@ int export_to(const Options& options) {
   const Model model = load_model(options.model);
   const WeightType weights = options.weights == "int8" ? WeightType::int8 : WeightType::int16;
   const Export exported = export_model(model, task_of(model, options.config), weights);
-  write_file(options.header, header_of(exported, model));
+  host::write_file(options.header, header_of(exported, model));
   if (!options.report.empty()) {
-    write_file(options.report, report_of(exported, model));
+    host::write_file(options.report, report_of(exported, model));
   }
   const Agreement& agreement = exported.agreement;
   fmt::print("{}: identity {:08x}, {} weights\n", options.header.string(), identity_of(exported.policy),
@@ -70,5 +70,5 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"int16", "int8"}))
       ->capture_default_str();
   app.add_option("--report", options.report, "write the figures to this JSON file");
-  return run(app, argc, argv, [&options] { return export_to(options); });
+  return host::run(app, argc, argv, [&options] { return export_to(options); });
 }

@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "training/state.hpp"
 #include "sil/world/kick_task.hpp"
 #include "sil/world/planar_world.hpp"
 #include "sil/world/world.hpp"
+#include "training/state.hpp"
 
 namespace striker::training {
 

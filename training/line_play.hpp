@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "training/kick_env.hpp"
 #include "sil/world/planar_robot.hpp"
+#include "training/kick_env.hpp"
 
 namespace striker::training {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 #include "training/hash.hpp"
 
 namespace striker::training {
@@ -143,12 +143,13 @@ Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& 
 }
 
 Model load_model(const std::filesystem::path& file) {
-  const SafeTensors content = read_safetensors(read_file(file), file.string());
+  const SafeTensors content = read_safetensors(host::read_file(file), file.string());
   return {.parameters = parameters_of(content.tensors, file.string()), .metadata = content.metadata};
 }
 
 void save_model(const Model& model, const std::filesystem::path& file) {
-  write_file(file, write_safetensors({.tensors = tensors_of(model.parameters), .metadata = model.metadata}));
+  host::write_file(file,
+                   write_safetensors({.tensors = tensors_of(model.parameters), .metadata = model.metadata}));
 }
 
 std::string model_identity(const Parameters& parameters) {

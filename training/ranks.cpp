@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 
 namespace striker::training {
 
@@ -56,7 +56,7 @@ void Ranks::collect(const std::vector<std::filesystem::path>& files) const {
   if (rank_ > 0) {
     for (const auto& file : files) {
       send(file.string());
-      send(read_file(file));
+      send(host::read_file(file));
     }
     send("");
     return;
@@ -65,8 +65,8 @@ void Ranks::collect(const std::vector<std::filesystem::path>& files) const {
     for (std::string path = receive(from); !path.empty(); path = receive(from)) {
       const std::string content = receive(from);
       if (!std::filesystem::exists(path)) {
-        require_writable(std::filesystem::path(path).parent_path());
-        write_file(path, content);
+        host::require_writable(std::filesystem::path(path).parent_path());
+        host::write_file(path, content);
       }
     }
   }

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "training/cli.hpp"
-#include "training/interrupt.hpp"
-#include "training/progress.hpp"
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/progress.hpp"
+#include "firmware/host/stop_signal.hpp"
 #include "training/training_run.hpp"
 
 namespace striker::training {
@@ -41,8 +41,8 @@ void report(const TrainingResult& result, const Config& config, const std::files
 
 int train_and_save(const Options& options) {
   const Config config = load_config(options.config, options.changes);
-  watch_for_interrupt();
-  ProgressLine line("episode", config.run.episodes);
+  host::catch_stop_signals();
+  host::ProgressLine line("episode", config.run.episodes);
   const TrainingResult result =
       train_into(options.out, config, options.seed, options.resume, [&line](const CurveRow& row) {
         const int done = row.episode.episode + 1;
@@ -50,7 +50,7 @@ int train_and_save(const Options& options) {
           line.show(done, fmt::format("reward {:.2f} (mean of {})", row.moving_average,
                                       std::min(done, moving_average_span)));
         }
-        return !interrupted();
+        return !host::stop_requested();
       });
   line.finish();
   report(result, config, options.out);
@@ -60,7 +60,7 @@ int train_and_save(const Options& options) {
         "striker-train: interrupted after {} of {} episodes; everything so far is kept, add --resume to "
         "go on\n",
         result.episodes, config.run.episodes);
-    return exit_interrupted;
+    return host::exit_interrupted;
   }
   return 0;
 }
@@ -90,5 +90,5 @@ int main(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--out", options.out, "directory for the results; made if missing")->required();
   app.add_flag("--resume", options.resume, "go on with the unfinished training in that directory");
-  return run(app, argc, argv, [&options] { return train_and_save(options); });
+  return host::run(app, argc, argv, [&options] { return train_and_save(options); });
 }

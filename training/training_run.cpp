@@ -8,8 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "firmware/host/files.hpp"
 #include "training/episode_csv.hpp"
-#include "training/files.hpp"
 
 namespace striker::training {
 
@@ -212,7 +212,7 @@ Model best_model_of(const Training& training) {
 
 TrainingResult train_into(const std::filesystem::path& directory, const Config& config, std::uint64_t seed,
                           bool resume, const Progress& progress) {
-  require_writable(directory);
+  host::require_writable(directory);
   Training training(config, seed);
   RunDirectory files(directory);
   files.begin(training, resume);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "firmware/host/command_line.hpp"
 #include "sil/budget/budget_report.hpp"
 #include "sil/budget/message_set.hpp"
 #include "sil/bus/bit_rate.hpp"
@@ -94,20 +95,12 @@ int main(int argc, char** argv) {
       "striker-bus-budget");
   Options options;
   define(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return striker::host::run(app, argc, argv, [&] {
     const BusBudget budget = make_budget(options);
     fmt::print("{}", format_table(budget));
     if (!options.json.empty()) {
       write_json(budget, options.json);
     }
     return budget.missed().empty() ? 0 : 1;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "striker-bus-budget: {}\n", error.what());
-    return 2;
-  }
+  });
 }

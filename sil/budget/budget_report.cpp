@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sil/report/atomic_file.hpp"
+#include "firmware/host/atomic_file.hpp"
 
 namespace striker::sil {
 
@@ -112,7 +112,7 @@ void write_json(const BusBudget& budget, const std::filesystem::path& file) {
   if (budget.decision) {
     json["decision"] = decision_json(*budget.decision);
   }
-  AtomicFile out(file);
+  host::AtomicFile out(file);
   out.write(json.dump(1) + '\n');
   out.finish();
 }

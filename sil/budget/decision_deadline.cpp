@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sil/budget/message_set.hpp"
 #include "firmware/can/messages.hpp"
+#include "sil/budget/message_set.hpp"
 
 namespace striker::sil {
 

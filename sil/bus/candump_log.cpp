@@ -7,7 +7,7 @@
 
 namespace striker::sil {
 
-void write_candump(AtomicFile& log, std::int64_t stamp_us, const can::Frame& frame) {
+void write_candump(host::AtomicFile& log, std::int64_t stamp_us, const can::Frame& frame) {
   constexpr std::string_view digits = "0123456789ABCDEF";
   fmt::basic_memory_buffer<char, 64> line;
   fmt::format_to(fmt::appender(line), FMT_COMPILE("({:010}.{:06}) vcan0 {:03X}#"), stamp_us / 1'000'000,

@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "firmware/can/frame.hpp"
-#include "sil/report/atomic_file.hpp"
+#include "firmware/host/atomic_file.hpp"
 
 namespace striker::sil {
 
-void write_candump(AtomicFile& log, std::int64_t stamp_us, const can::Frame& frame);
+void write_candump(host::AtomicFile& log, std::int64_t stamp_us, const can::Frame& frame);
 
 }  // namespace striker::sil

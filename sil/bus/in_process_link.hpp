@@ -1,8 +1,8 @@
 // The controller in the simulator's own process, stepped by the same SYNC frames as over a bus.
 #pragma once
 
-#include "sil/bus/controller_link.hpp"
 #include "firmware/core/sync_clock.hpp"
+#include "sil/bus/controller_link.hpp"
 
 namespace striker::sil {
 

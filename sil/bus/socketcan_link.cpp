@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "firmware/can/codec.hpp"
-#include "firmware/ports/linux/stop_signal.hpp"
+#include "firmware/host/stop_signal.hpp"
 
 namespace striker::sil {
 
@@ -28,7 +28,7 @@ constexpr std::array<std::uint16_t, 7> controller_sends = {
     can::layout<can::Version>.info.id};
 
 // A full queue in lockstep means a peer that does not read: the frame is lost as on a real bus.
-void send_all(linux_port::CanSocket& socket, std::span<const can::Frame> frames) {
+void send_all(host::CanSocket& socket, std::span<const can::Frame> frames) {
   for (const can::Frame& frame : frames) {
     socket.send(frame);
   }
@@ -59,7 +59,7 @@ bool LockstepLink::await_answer(std::uint32_t tick, microseconds timeout, std::v
       }
     }
     const auto rest = duration_cast<microseconds>(deadline - Clock::now());
-    if (rest <= microseconds(0) || linux_port::stop_requested()) {
+    if (rest <= microseconds(0) || host::stop_requested()) {
       answer.resize(begin);
       return false;
     }
@@ -71,7 +71,7 @@ void LockstepLink::start(std::span<const can::Frame> sent, std::vector<can::Fram
   const auto deadline = Clock::now() + options_.start_timeout;
   do {
     send_all(socket_, sent);
-    if (await_answer(0, start_retry, answer) || linux_port::stop_requested()) {
+    if (await_answer(0, start_retry, answer) || host::stop_requested()) {
       return;
     }
   } while (Clock::now() < deadline);
@@ -103,7 +103,7 @@ void LockstepLink::exchange(std::uint32_t tick, std::span<const can::Frame> sent
     ++unanswered_;
     return listen_for_return(tick);
   }
-  if (!await_answer(tick, options_.answer_timeout, answer) && !linux_port::stop_requested()) {
+  if (!await_answer(tick, options_.answer_timeout, answer) && !host::stop_requested()) {
     ++unanswered_;
     answered_ = false;
     fmt::print(stderr,

@@ -9,8 +9,8 @@
 #include <chrono>
 #include <string>
 
+#include "firmware/host/can_socket.hpp"
 #include "sil/bus/controller_link.hpp"
-#include "firmware/ports/linux/can_socket.hpp"
 
 namespace striker::sil {
 
@@ -33,7 +33,7 @@ class LockstepLink final : public ControllerLink {
   void start(std::span<const can::Frame> sent, std::vector<can::Frame>& answer);
   void listen_for_return(std::uint32_t tick);
 
-  linux_port::CanSocket socket_;
+  host::CanSocket socket_;
   SocketCanOptions options_;
   bool answered_ = true;
   std::uint64_t unanswered_ = 0;
@@ -46,7 +46,7 @@ class FreeRunningLink final : public ControllerLink {
                 std::vector<can::Frame>& answer) override;
 
  private:
-  linux_port::CanSocket socket_;
+  host::CanSocket socket_;
 };
 
 }  // namespace striker::sil

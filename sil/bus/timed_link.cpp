@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sil/bus/frame_bits.hpp"
 #include "firmware/can/codec.hpp"
+#include "sil/bus/frame_bits.hpp"
 
 namespace striker::sil {
 

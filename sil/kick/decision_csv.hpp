@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "firmware/core/controller.hpp"
-#include "sil/report/atomic_file.hpp"
+#include "firmware/host/atomic_file.hpp"
 
 namespace striker::sil {
 
@@ -21,7 +21,7 @@ class DecisionCsv {
   void finish();
 
  private:
-  AtomicFile file_;
+  host::AtomicFile file_;
   std::uint32_t last_number_ = 0;
 };
 

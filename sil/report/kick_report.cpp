@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sil/report/atomic_file.hpp"
+#include "firmware/host/atomic_file.hpp"
 
 namespace striker::sil {
 namespace {
@@ -95,7 +95,7 @@ KickSummary summarise(const std::vector<KickOutcome>& episodes) {
 }
 
 void write_json(const KickRun& run, const std::filesystem::path& file) {
-  AtomicFile out(file);
+  host::AtomicFile out(file);
   out.write(run_json(run).dump(1) + '\n');
   out.finish();
 }

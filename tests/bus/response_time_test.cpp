@@ -6,8 +6,8 @@
 #include <set>
 
 #include "sil/budget/message_set.hpp"
-#include "tests/bus/traffic.hpp"
 #include "sil/world/random.hpp"
+#include "tests/bus/traffic.hpp"
 
 namespace striker::sil {
 namespace {

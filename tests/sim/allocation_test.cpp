@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "tests/sim/play.hpp"
 #include "sil/world/planar_world.hpp"
+#include "tests/sim/play.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/sim/play.hpp"
 #include "sil/world/field_specs.hpp"
+#include "tests/sim/play.hpp"
 
 namespace striker::sil {
 namespace {

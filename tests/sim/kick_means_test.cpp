@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "tests/sim/play.hpp"
 #include "sil/report/kick_report.hpp"
+#include "tests/sim/play.hpp"
 
 namespace striker::sil {
 namespace {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t ms = 1'000'000;
 
 // Wakes on time, but for the stalls that it was given; plays the bus's other end before it sleeps.
-class LogicalClock final : public LoopClock {
+class LogicalClock final : public host::LoopClock {
  public:
   std::map<std::uint32_t, std::int64_t> lateness_ns;  // by the number of the wake-up
   std::function<void(std::int64_t)> while_asleep;

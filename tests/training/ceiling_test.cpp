@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "training/ceiling_run.hpp"
 #include "sil/world/random.hpp"
+#include "training/ceiling_run.hpp"
 
 namespace striker::training {
 namespace {

@@ -8,8 +8,8 @@
 #include <csignal>
 #include <set>
 
-#include "training/experiment_summary.hpp"
 #include "tests/training/fixtures.hpp"
+#include "training/experiment_summary.hpp"
 #include "training/workers.hpp"
 
 namespace striker::training {

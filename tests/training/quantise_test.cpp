@@ -5,8 +5,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "training/agreement.hpp"
 #include "tests/training/fixtures.hpp"
+#include "training/agreement.hpp"
 
 namespace striker::training {
 namespace {

@@ -13,12 +13,12 @@
 
 #include "firmware/core/kernel/portable.hpp"
 #include "firmware/core/network.hpp"
-#include "tests/golden/synthetic_policy.hpp"
 #include "firmware/ports/bare_metal/console.hpp"
 #include "firmware/ports/bare_metal/instruction_counter.hpp"
 #include "firmware/ports/bare_metal/memory.hpp"
 #include "firmware/ports/bare_metal/replay.hpp"
 #include "firmware/ports/bare_metal/step_search.hpp"
+#include "tests/golden/synthetic_policy.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {

@@ -12,9 +12,9 @@
 #include "firmware/core/network.hpp"
 #include "firmware/core/policy_proof.hpp"
 #include "firmware/core/relative_state.hpp"
-#include "tests/golden/synthetic_policy.hpp"
 #include "firmware/ports/bare_metal/console.hpp"
 #include "firmware/ports/bare_metal/replay.hpp"
+#include "tests/golden/synthetic_policy.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "firmware/core/controller.hpp"
-#include "tests/golden/synthetic_policy.hpp"
 #include "firmware/ports/bare_metal/instruction_counter.hpp"
+#include "tests/golden/synthetic_policy.hpp"
 
 namespace striker::bare_metal {
 

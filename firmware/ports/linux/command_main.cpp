@@ -11,7 +11,8 @@
 #include <thread>
 
 #include "firmware/can/codec.hpp"
-#include "firmware/ports/linux/can_socket.hpp"
+#include "firmware/host/can_socket.hpp"
+#include "firmware/host/command_line.hpp"
 
 namespace {
 
@@ -23,7 +24,7 @@ constexpr std::array<std::uint16_t, 1> tool_receives = {can::layout<can::Status>
 // An operator's tool starts with any counter: of two frames in a row, the second always follows the first.
 // The bus budget counts on their distance.
 template <class Message>
-void send_twice(linux_port::CanSocket& socket, const Message& message) {
+void send_twice(host::CanSocket& socket, const Message& message) {
   can::SendCounter counter;
   socket.send(can::send(message, counter));
   std::this_thread::sleep_for(std::chrono::milliseconds(can::layout<Message>.info.traffic.distance_ms));
@@ -31,7 +32,7 @@ void send_twice(linux_port::CanSocket& socket, const Message& message) {
 }
 
 // The first status that satisfies `wanted`; without one the last that came, or nothing, after the timeout.
-std::optional<can::Status> await_status(linux_port::CanSocket& socket, std::chrono::milliseconds timeout,
+std::optional<can::Status> await_status(host::CanSocket& socket, std::chrono::milliseconds timeout,
                                         const std::function<bool(const can::Status&)>& wanted) {
   std::optional<can::Status> last;
   const auto deadline = Clock::now() + timeout;
@@ -75,7 +76,7 @@ bool has_effect(const std::string& command, const can::Status& status) {
   return command == "status" || state != can::State::active;
 }
 
-void send_command(linux_port::CanSocket& socket, const std::string& command) {
+void send_command(host::CanSocket& socket, const std::string& command) {
   if (command == "estop") {
     send_twice(socket, can::EmergencyStop{.source = static_cast<std::int32_t>(can::StopSource::operator_)});
   } else if (command != "status") {
@@ -87,7 +88,7 @@ void send_command(linux_port::CanSocket& socket, const std::string& command) {
 }
 
 int run(const std::string& interface, const std::string& command, std::chrono::milliseconds timeout) {
-  linux_port::CanSocket socket(interface, tool_receives);
+  host::CanSocket socket(interface, tool_receives);
   send_command(socket, command);
   const auto status =
       await_status(socket, timeout, [&](const can::Status& seen) { return has_effect(command, seen); });
@@ -120,15 +121,7 @@ int main(int argc, char** argv) {
   app.add_subcommand("estop", "emergency stop: latches a fault, torque 0");
   app.add_subcommand("clear", "clear the latched fault, if its cause is gone");
   app.add_subcommand("status", "print the controller's state");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return host::run(app, argc, argv, [&] {
     return run(interface, app.get_subcommands().front()->get_name(), std::chrono::milliseconds(timeout_ms));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "striker-command: {}\n", error.what());
-    return 2;
-  }
+  });
 }

@@ -3,25 +3,23 @@
 #include <cstdio>
 
 #include "firmware/can/dbc.hpp"
+#include "firmware/host/command_line.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("Prints the message table as a DBC file, for candump users, cantools, canmatrix, SavvyCAN.",
                "striker-dbc");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  striker::can::print_dbc(
-      [](void*, std::string_view text) {
-        if (!text.empty()) {
-          std::fwrite(text.data(), 1, text.size(), stdout);
-        }
-      },
-      nullptr);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    std::fputs("striker-dbc: cannot write to standard output: is the disk full?\n", stderr);
-    return 2;
-  }
-  return 0;
+  return striker::host::run(app, argc, argv, [&] {
+    striker::can::print_dbc(
+        [](void*, std::string_view text) {
+          if (!text.empty()) {
+            std::fwrite(text.data(), 1, text.size(), stdout);
+          }
+        },
+        nullptr);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      std::fputs("striker-dbc: cannot write to standard output: is the disk full?\n", stderr);
+      return 2;
+    }
+    return 0;
+  });
 }

@@ -8,10 +8,10 @@
 #include <cstdint>
 
 #include "firmware/can/messages.hpp"
-#include "firmware/ports/linux/can_socket.hpp"
+#include "firmware/host/can_socket.hpp"
+#include "firmware/host/periodic_clock.hpp"
 #include "firmware/ports/linux/frame_bus.hpp"
 #include "firmware/ports/linux/loop_timing.hpp"
-#include "firmware/ports/linux/periodic_clock.hpp"
 
 namespace striker::linux_port {
 
@@ -27,10 +27,10 @@ struct LockstepReport {
 };
 
 // Without a SYNC for `sync_timeout` of wall clock, once they have begun: fault sync_lost, torque 0.
-LockstepReport run_lockstep(CanSocket& socket, std::chrono::milliseconds sync_timeout);
+LockstepReport run_lockstep(host::CanSocket& socket, std::chrono::milliseconds sync_timeout);
 
 struct RealTimeOptions {
-  std::int64_t period_ns = tick_period_ns;  // of the loop; the controller takes each for 1 ms
+  std::int64_t period_ns = host::tick_period_ns;  // of the loop; the controller takes each for 1 ms
   std::uint32_t overrun_limit = 500;
   std::uint32_t frames_per_tick = 64;  // up to greatest_frames_per_tick
   std::uint64_t ticks = 0;             // stops after these; 0: a stop signal alone stops
@@ -47,7 +47,7 @@ struct RealTimeOptions {
 // periods skips them; they are counted, never run in a burst, and the deadlines stay on their grid. More than
 // `overrun_limit` missed of the last 1,000: fault overrun, torque 0. `fault` follows the controller's, for
 // another thread to tell.
-void run_real_time(FrameBus& bus, LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing,
+void run_real_time(FrameBus& bus, host::LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing,
                    std::atomic<can::Fault>& fault);
 
 }  // namespace striker::linux_port

@@ -10,12 +10,13 @@
 #include <string>
 #include <thread>
 
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/stop_signal.hpp"
 #include "firmware/ports/linux/bench_peer.hpp"
 #include "firmware/ports/linux/executor.hpp"
 #include "firmware/ports/linux/outbox.hpp"
 #include "firmware/ports/linux/real_time.hpp"
 #include "firmware/ports/linux/real_time_socket.hpp"
-#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace {
 
@@ -98,7 +99,7 @@ class Helper {
           sigset_t all;
           sigfillset(&all);
           pthread_sigmask(SIG_SETMASK, &all, nullptr);
-          while (!stop.stop_requested()) {
+          while (!stop.host::stop_requested()) {
             work();
           }
         }) {}
@@ -121,8 +122,8 @@ class Bench {
 
  private:
   BenchPeer peer_;
-  MonotonicClock clock_;
-  PeriodicClock ticks_;
+  host::MonotonicClock clock_;
+  host::PeriodicClock ticks_;
   bool first_ = true;
   Helper helper_;
 };
@@ -146,7 +147,7 @@ void run_on_sync(const Options& options) {
   if (options.in_process) {
     throw std::runtime_error("--in-process has no SYNC: use it with --clock realtime");
   }
-  CanSocket socket(options.can, controller_receives);
+  host::CanSocket socket(options.can, controller_receives);
   print_granted(options, ask_for_real_time(settings_of(options)));
   const LockstepReport report = run_lockstep(socket, std::chrono::milliseconds(options.sync_timeout_ms));
   fmt::print("striker-firmware: stopped after {} ticks; {} frames dropped\n", report.ticks,
@@ -179,7 +180,7 @@ void run_on_own_clock(Options options) {
                                       options.loop.overrun_limit, 1000));
   print_granted(options, granted);
 
-  MonotonicClock clock;
+  host::MonotonicClock clock;
   LoopTiming timing;
   FrameBus& bus = socket ? static_cast<FrameBus&>(*socket) : in_process;
   run_real_time(bus, clock, options.loop, timing, fault);
@@ -199,17 +200,9 @@ int main(int argc, char** argv) {
   Options options;
   define_bus(app, options);
   define_real_time(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    catch_stop_signals();
+  return host::run(app, argc, argv, [&] {
+    host::catch_stop_signals();
     options.clock == "sync" ? run_on_sync(options) : run_on_own_clock(options);
     return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "striker-firmware: {}\n", error.what());
-    return 2;
-  }
+  });
 }

@@ -1,18 +1,18 @@
 #include "firmware/core/sync_clock.hpp"
+#include "firmware/host/stop_signal.hpp"
 #include "firmware/ports/linux/executor.hpp"
 #include "firmware/ports/linux/outbox.hpp"
-#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace striker::linux_port {
 
-LockstepReport run_lockstep(CanSocket& socket, std::chrono::milliseconds sync_timeout) {
+LockstepReport run_lockstep(host::CanSocket& socket, std::chrono::milliseconds sync_timeout) {
   LockstepReport report;
   core::SyncClock clock;
   core::Outputs outputs;
   FaultAnnouncer announcer;
   bool sync_lost = false;
   auto last_sync = std::chrono::steady_clock::now();
-  while (!stop_requested()) {
+  while (!host::stop_requested()) {
     while (const auto frame = socket.receive()) {
       if (clock.take(*frame, outputs)) {
         report.dropped_frames += send_all(socket, outputs);

@@ -4,11 +4,9 @@
 #include <sys/resource.h>
 #include <sys/utsname.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+
+#include "firmware/host/files.hpp"
 
 namespace striker::linux_port {
 
@@ -84,22 +82,7 @@ void write_json(const LoopTiming& timing, const std::vector<std::string>& settin
       {"lateness", histogram_json(timing.lateness)},
       {"execution", histogram_json(timing.execution)},
       {"receive_to_command", histogram_json(timing.latency)}};
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  errno = 0;
-  std::ofstream stream(temporary, std::ios::binary);
-  stream << json.dump(1) << '\n';
-  stream.close();
-  std::error_code error;
-  if (stream) {
-    std::filesystem::rename(temporary, file, error);
-  }
-  if (!stream || error) {
-    const std::string why = error ? error.message() : std::strerror(errno);
-    std::filesystem::remove(temporary, error);
-    throw std::runtime_error(fmt::format(
-        "{}: cannot be written ({}): name a file in a writable directory with room", file.string(), why));
-  }
+  host::write_file(file, json.dump(1) + '\n');
 }
 
 }  // namespace striker::linux_port

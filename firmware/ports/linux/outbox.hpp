@@ -6,12 +6,12 @@
 #include <cstdint>
 
 #include "firmware/core/controller.hpp"
-#include "firmware/ports/linux/can_socket.hpp"
+#include "firmware/host/can_socket.hpp"
 
 namespace striker::linux_port {
 
 // The number of frames that the socket did not take.
-inline std::uint64_t send_all(CanSocket& socket, const core::Outputs& outputs) {
+inline std::uint64_t send_all(host::CanSocket& socket, const core::Outputs& outputs) {
   std::uint64_t dropped = 0;
   for (const can::Frame& frame : outputs.frames()) {
     dropped += socket.send(frame) ? 0 : 1;

@@ -3,9 +3,9 @@
 #include <span>
 
 #include "firmware/core/controller.hpp"
+#include "firmware/host/stop_signal.hpp"
 #include "firmware/ports/linux/executor.hpp"
 #include "firmware/ports/linux/overrun_limit.hpp"
-#include "firmware/ports/linux/stop_signal.hpp"
 
 namespace striker::linux_port {
 
@@ -69,7 +69,7 @@ class TimingWindow {
 
 class RealTimeLoop {
  public:
-  RealTimeLoop(FrameBus& bus, LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing)
+  RealTimeLoop(FrameBus& bus, host::LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing)
       : bus_(bus),
         clock_(clock),
         timing_(timing),
@@ -79,7 +79,7 @@ class RealTimeLoop {
 
   [[nodiscard]] can::Fault fault() const { return controller_.fault(); }
 
-  void tick(const PeriodicClock::Wake& wake) {
+  void tick(const host::PeriodicClock::Wake& wake) {
     const std::int64_t start_ns = clock_.now_ns();
     note_wake(wake);
     frames_.take(bus_);
@@ -98,7 +98,7 @@ class RealTimeLoop {
   }
 
  private:
-  void note_wake(const PeriodicClock::Wake& wake) {
+  void note_wake(const host::PeriodicClock::Wake& wake) {
     ++timing_.ticks;
     timing_.missed_periods += wake.missed;
     timing_.longest_stall_periods = std::max(timing_.longest_stall_periods, wake.missed);
@@ -107,7 +107,7 @@ class RealTimeLoop {
   }
 
   // Once a fault: while it is latched, the controller reports it by itself.
-  void enter_port_faults(const PeriodicClock::Wake& wake) {
+  void enter_port_faults(const host::PeriodicClock::Wake& wake) {
     const bool overrun = limit_.exceeded_by(wake.tick, wake.missed);
     const bool bus_off = bus_.take_bus_off();
     if ((overrun || bus_off) && controller_.state() != can::State::fault) {
@@ -128,7 +128,7 @@ class RealTimeLoop {
   }
 
   FrameBus& bus_;
-  LoopClock& clock_;
+  host::LoopClock& clock_;
   LoopTiming& timing_;
   std::int64_t begin_ns_;  // frames from before say nothing about the latency
   core::Controller controller_;
@@ -140,12 +140,12 @@ class RealTimeLoop {
 
 }  // namespace
 
-void run_real_time(FrameBus& bus, LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing,
+void run_real_time(FrameBus& bus, host::LoopClock& clock, const RealTimeOptions& options, LoopTiming& timing,
                    std::atomic<can::Fault>& fault) {
   RealTimeLoop loop(bus, clock, options, timing);
-  PeriodicClock deadlines(clock, options.period_ns);
+  host::PeriodicClock deadlines(clock, options.period_ns);
   const ResourceUse before = thread_resource_use();
-  while (!stop_requested() && (options.ticks == 0 || timing.ticks < options.ticks)) {
+  while (!host::stop_requested() && (options.ticks == 0 || timing.ticks < options.ticks)) {
     loop.tick(deadlines.wait());
     fault.store(loop.fault(), std::memory_order_relaxed);
   }

@@ -48,7 +48,7 @@ RealTimeSocket::RealTimeSocket(const std::string& interface, std::span<const std
 
 std::size_t RealTimeSocket::send(std::span<const can::Frame> frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    slots_[i].wire = to_wire(frames[i]);
+    slots_[i].wire = host::to_wire(frames[i]);
     messages_[i].msg_hdr.msg_control = nullptr;
     messages_[i].msg_hdr.msg_controllen = 0;
   }

@@ -8,14 +8,14 @@
 #include <array>
 #include <string>
 
-#include "firmware/ports/linux/can_socket.hpp"
+#include "firmware/host/can_socket.hpp"
 #include "firmware/ports/linux/frame_bus.hpp"
 
 namespace striker::linux_port {
 
 class RealTimeSocket final : public FrameBus {
  public:
-  // Throws as CanSocket does.
+  // Throws as host::CanSocket does.
   RealTimeSocket(const std::string& interface, std::span<const std::uint16_t> identifiers);
 
   // A bus that is off, a full queue or an interface that has gone drop frames; the last also counts as a bus
@@ -37,7 +37,7 @@ class RealTimeSocket final : public FrameBus {
 
   void read_calendar();
 
-  CanSocket socket_;
+  host::CanSocket socket_;
   std::array<Slot, greatest_frames_per_tick> slots_{};
   std::array<mmsghdr, greatest_frames_per_tick> messages_{};
   std::int64_t calendar_ns_ = 0;  // CLOCK_REALTIME less CLOCK_MONOTONIC

@@ -1,4 +1,4 @@
-#include "training/files.hpp"
+#include "firmware/host/files.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "sil/report/atomic_file.hpp"
+#include "firmware/host/atomic_file.hpp"
 
-namespace striker::training {
+namespace striker::host {
 
 std::string read_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -23,7 +23,7 @@ std::string read_file(const std::filesystem::path& file) {
 }
 
 void write_file(const std::filesystem::path& file, std::string_view content) {
-  sil::AtomicFile output(file);
+  AtomicFile output(file);
   output.write(content);
   output.finish();
 }
@@ -41,4 +41,4 @@ void require_writable(const std::filesystem::path& directory) {
   std::filesystem::remove(probe, error);
 }
 
-}  // namespace striker::training
+}  // namespace striker::host

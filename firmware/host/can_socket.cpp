@@ -1,4 +1,4 @@
-#include "firmware/ports/linux/can_socket.hpp"
+#include "firmware/host/can_socket.hpp"
 
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace striker::linux_port {
+namespace striker::host {
 
 namespace {
 
@@ -138,4 +138,4 @@ bool CanSocket::take_bus_off() {
   return was;
 }
 
-}  // namespace striker::linux_port
+}  // namespace striker::host

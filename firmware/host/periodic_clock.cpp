@@ -1,8 +1,8 @@
-#include "firmware/ports/linux/periodic_clock.hpp"
+#include "firmware/host/periodic_clock.hpp"
 
 #include <cerrno>
 
-namespace striker::linux_port {
+namespace striker::host {
 
 namespace {
 
@@ -22,4 +22,4 @@ void MonotonicClock::sleep_until_ns(std::int64_t time_ns) {
   }
 }
 
-}  // namespace striker::linux_port
+}  // namespace striker::host

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace striker::sil {
+namespace striker::host {
 
 // Everything throws std::runtime_error with one line that names the file and the way out. Without `finish`
 // nothing is left behind.
@@ -27,4 +27,4 @@ class AtomicFile {
   std::FILE* stream_ = nullptr;
 };
 
-}  // namespace striker::sil
+}  // namespace striker::host

@@ -1,4 +1,4 @@
-#include "sil/report/atomic_file.hpp"
+#include "firmware/host/atomic_file.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace striker::sil {
+namespace striker::host {
 
 AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), temporary_(file_) {
   temporary_ += ".part";
@@ -53,4 +53,4 @@ void AtomicFile::finish() {
   }
 }
 
-}  // namespace striker::sil
+}  // namespace striker::host

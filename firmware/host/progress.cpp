@@ -1,4 +1,4 @@
-#include "training/progress.hpp"
+#include "firmware/host/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace striker::training {
+namespace striker::host {
 
 namespace {
 
@@ -49,4 +49,4 @@ void ProgressLine::finish() {
   }
 }
 
-}  // namespace striker::training
+}  // namespace striker::host

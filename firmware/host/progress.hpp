@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace striker::training {
+namespace striker::host {
 
 class ProgressLine {
  public:
@@ -30,4 +30,4 @@ class ProgressLine {
   Clock::time_point next_;
 };
 
-}  // namespace striker::training
+}  // namespace striker::host

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace striker::training {
+namespace striker::host {
 
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
 
@@ -15,4 +15,4 @@ void write_file(const std::filesystem::path& file, std::string_view content);
 // Throws unless a file can be made in this directory (which is made if it is missing).
 void require_writable(const std::filesystem::path& directory);
 
-}  // namespace striker::training
+}  // namespace striker::host

@@ -1,11 +1,11 @@
-#include "training/cli.hpp"
+#include "firmware/host/command_line.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
 
-namespace striker::training {
+namespace striker::host {
 
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& body) {
   try {
@@ -24,4 +24,4 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<in
   }
 }
 
-}  // namespace striker::training
+}  // namespace striker::host

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <ctime>
 
-namespace striker::linux_port {
+namespace striker::host {
 
 inline constexpr std::int64_t tick_period_ns = 1'000'000;  // the controller's tick
 
@@ -54,4 +54,4 @@ class PeriodicClock {
   std::uint32_t tick_ = 0;
 };
 
-}  // namespace striker::linux_port
+}  // namespace striker::host

@@ -1,8 +1,8 @@
-#include "firmware/ports/linux/stop_signal.hpp"
+#include "firmware/host/stop_signal.hpp"
 
 #include <csignal>
 
-namespace striker::linux_port {
+namespace striker::host {
 
 namespace {
 
@@ -22,4 +22,4 @@ bool stop_requested() {
   return stop_flag != 0;
 }
 
-}  // namespace striker::linux_port
+}  // namespace striker::host

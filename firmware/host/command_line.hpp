@@ -1,15 +1,17 @@
-// What the training programs' command lines have in common.
+// What the command lines of all programs on a host have in common.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
 
-namespace striker::training {
+namespace striker::host {
 
+// Exit statuses: wrong use or an input that cannot be used; a stop signal that ended the work early.
 inline constexpr int exit_bad_input = 2;
+inline constexpr int exit_interrupted = 130;
 
 // Parses, runs `body` and returns the exit code. A wrong option and an exception end in one line on stderr
 // and code 2.
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& body);
 
-}  // namespace striker::training
+}  // namespace striker::host

@@ -15,7 +15,7 @@
 
 #include "firmware/can/frame.hpp"
 
-namespace striker::linux_port {
+namespace striker::host {
 
 [[nodiscard]] can_frame to_wire(const can::Frame& frame);
 
@@ -53,4 +53,4 @@ class CanSocket {
   bool bus_off_ = false;
 };
 
-}  // namespace striker::linux_port
+}  // namespace striker::host

@@ -1,9 +1,9 @@
 // A clean stop on SIGINT or SIGTERM: the signal sets a flag, and ends blocking calls with EINTR.
 #pragma once
 
-namespace striker::linux_port {
+namespace striker::host {
 
 void catch_stop_signals();
 [[nodiscard]] bool stop_requested();
 
-}  // namespace striker::linux_port
+}  // namespace striker::host
