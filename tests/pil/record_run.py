@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the recording that the images replay (firmware/ports/bare_metal/replay.hpp) of a simulator's candump log."""
+"""Makes the recording that the images replay (tests/images/recording.hpp) of a simulator's candump log."""
 
 import argparse
 import re

@@ -7,7 +7,7 @@
 #include "firmware/core/kernel/portable.hpp"
 #include "firmware/core/network.hpp"
 #include "firmware/core/policy_proof.hpp"
-#include "tests/golden/synthetic_policy.hpp"
+#include "tests/images/synthetic_policy.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace striker::core {

@@ -1,16 +1,16 @@
 // SysTick (Armv6-M and later Architecture Reference Manuals, "System timer"): 24 bits, counting down with the
 // processor's clock, which STRIKER_CLOCK_HZ says for the board.
-#include "firmware/ports/bare_metal/instruction_counter.hpp"
+#include "tests/images/instruction_counter.hpp"
 #include "firmware/ports/cortex_m/systick.hpp"
 
-namespace striker::bare_metal {
+namespace striker::images {
 
 CounterUnit counter_unit() {
   return {1'000'000'000 / 1'000'000, STRIKER_CLOCK_HZ / 1'000'000};
 }
 
 void restart_counter() {
-  using namespace cortex_m;
+  using namespace striker::cortex_m;
   systick.control = 0;
   systick.reload = greatest_reload;
   systick.value = 0;
@@ -21,4 +21,4 @@ std::uint32_t counted() {
   return cortex_m::greatest_reload - cortex_m::systick.value;
 }
 
-}  // namespace striker::bare_metal
+}  // namespace striker::images

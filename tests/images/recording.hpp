@@ -9,9 +9,9 @@
 #include <cstdint>
 
 #include "firmware/core/sync_clock.hpp"
-#include "firmware/ports/bare_metal/console.hpp"
+#include "tests/images/console.hpp"
 
-namespace striker::bare_metal {
+namespace striker::images {
 
 inline constexpr std::uint16_t from_controller = 0x8000;
 
@@ -42,4 +42,4 @@ class Recording {
   console::File file_;
 };
 
-}  // namespace striker::bare_metal
+}  // namespace striker::images

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace striker::console {
+namespace striker::images::console {
 
 void print(const char* text);
 void print(std::int64_t number);
@@ -37,4 +37,4 @@ class File {
 
 [[noreturn]] void exit(int status);
 
-}  // namespace striker::console
+}  // namespace striker::images::console

@@ -12,9 +12,9 @@
 #include "firmware/core/network.hpp"
 #include "firmware/core/policy_proof.hpp"
 #include "firmware/core/relative_state.hpp"
-#include "firmware/ports/bare_metal/console.hpp"
-#include "firmware/ports/bare_metal/replay.hpp"
-#include "tests/golden/synthetic_policy.hpp"
+#include "tests/images/console.hpp"
+#include "tests/images/recording.hpp"
+#include "tests/images/synthetic_policy.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {
@@ -27,9 +27,9 @@ constexpr const auto& trained = policy::trained;
 int failures = 0;
 
 void check(const char* name, std::int64_t value, std::int64_t wanted) {
-  console::print_line(name, value);
+  images::console::print_line(name, value);
   if (value != wanted) {
-    console::print_line("  but wanted", wanted);
+    images::console::print_line("  but wanted", wanted);
     ++failures;
   }
 }
@@ -107,11 +107,11 @@ void hash_frame(proof::Fnv1a& hash, const can::Frame& frame) {
 }
 
 // Ticks and decisions, the answers' hash, and the first tick whose answer differed.
-void replay(bare_metal::Recording& recording) {
+void replay(images::Recording& recording) {
   SyncClock clock;
   Outputs outputs;
   proof::Fnv1a hash;
-  bare_metal::RecordedFrame recorded;
+  images::RecordedFrame recorded;
   std::int64_t ticks = 0;
   std::int64_t decisions = 0;
   std::int64_t first_difference = -1;
@@ -143,27 +143,27 @@ void replay(bare_metal::Recording& recording) {
       }
     }
   }
-  console::print_line("ticks", ticks);
-  console::print_line("decisions", decisions);
-  console::print_line("answers", hash.value());
+  images::console::print_line("ticks", ticks);
+  images::console::print_line("decisions", decisions);
+  images::console::print_line("answers", hash.value());
   check("first differing tick", first_difference, -1);
 }
 
 }  // namespace
 
 int main() {
-  console::print_line("policy", trained.identity);
+  images::console::print_line("policy", trained.identity);
   check("golden vectors", passed_golden_vectors(), std::remove_cvref_t<decltype(trained)>::goldens);
-  console::print_line("shapes", hash_of_shapes());
-  console::print_line("relative states", hash_of_relative_states());
-  if (const char* name = console::word_argument("recording"); name != nullptr) {
-    bare_metal::Recording recording(name);
+  images::console::print_line("shapes", hash_of_shapes());
+  images::console::print_line("relative states", hash_of_relative_states());
+  if (const char* name = images::console::word_argument("recording"); name != nullptr) {
+    images::Recording recording(name);
     if (recording.is_open()) {
       replay(recording);
     } else {
-      console::print("no such recording\n");
+      images::console::print("no such recording\n");
       ++failures;
     }
   }
-  console::exit(failures == 0 ? 0 : 1);
+  images::console::exit(failures == 0 ? 0 : 1);
 }

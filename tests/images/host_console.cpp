@@ -4,9 +4,9 @@
 #include <cstring>
 #include <map>
 
-#include "firmware/ports/bare_metal/console.hpp"
+#include "tests/images/console.hpp"
 
-namespace striker::console {
+namespace striker::images::console {
 
 namespace {
 
@@ -78,4 +78,4 @@ void exit(int status) {
   std::exit(status);
 }
 
-}  // namespace striker::console
+}  // namespace striker::images::console

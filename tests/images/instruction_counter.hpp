@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace striker::bare_metal {
+namespace striker::images {
 
 // A count of the port's timer stands for this many instructions, as numerator and denominator.
 struct CounterUnit {
@@ -19,4 +19,4 @@ void restart_counter();
 // Counts since then, less than 2^24.
 [[nodiscard]] std::uint32_t counted();
 
-}  // namespace striker::bare_metal
+}  // namespace striker::images

@@ -1,8 +1,8 @@
 // The performance monitors' cycle counter (Armv7-R Architecture Reference Manual, chapter C12). QEMU runs it
 // at 1 GHz of virtual time: an instruction a count.
-#include "firmware/ports/bare_metal/instruction_counter.hpp"
+#include "tests/images/instruction_counter.hpp"
 
-namespace striker::bare_metal {
+namespace striker::images {
 
 CounterUnit counter_unit() {
   return {1, 1};
@@ -21,4 +21,4 @@ std::uint32_t counted() {
   return count & 0xFFFFFF;
 }
 
-}  // namespace striker::bare_metal
+}  // namespace striker::images

@@ -13,12 +13,12 @@
 
 #include "firmware/core/kernel/portable.hpp"
 #include "firmware/core/network.hpp"
-#include "firmware/ports/bare_metal/console.hpp"
-#include "firmware/ports/bare_metal/instruction_counter.hpp"
+#include "tests/images/console.hpp"
+#include "tests/images/instruction_counter.hpp"
 #include "firmware/ports/bare_metal/memory.hpp"
-#include "firmware/ports/bare_metal/replay.hpp"
-#include "firmware/ports/bare_metal/step_search.hpp"
-#include "tests/golden/synthetic_policy.hpp"
+#include "tests/images/recording.hpp"
+#include "tests/images/step_search.hpp"
+#include "tests/images/synthetic_policy.hpp"
 #include STRIKER_POLICY_HEADER
 
 namespace {
@@ -46,13 +46,13 @@ struct Range {
 
 // Repetitions, at least 40, after which one instruction more is a whole number of counts more.
 std::uint32_t exact_repetitions() {
-  const auto [instructions, counts] = bare_metal::counter_unit();
+  const auto [instructions, counts] = images::counter_unit();
   const std::uint32_t whole = instructions / std::gcd(instructions, counts);
   return whole >= 40 ? whole : 40;
 }
 
 std::uint32_t instructions(std::uint32_t counts, std::uint32_t repetitions) {
-  const auto unit = bare_metal::counter_unit();
+  const auto unit = images::counter_unit();
   return static_cast<std::uint32_t>(
       (std::uint64_t{counts} * unit.instructions + unit.counts * repetitions / 2) /
       (std::uint64_t{unit.counts} * repetitions));
@@ -69,12 +69,12 @@ using Function = Answer<policy> (*)(const Raw<policy>&);
 template <const auto& policy>
 [[gnu::noipa]] std::uint32_t count(Function<policy> function, const Raw<policy>& raw,
                                    std::uint32_t repetitions) {
-  bare_metal::restart_counter();
+  images::restart_counter();
   for (std::uint32_t i = 0; i < repetitions; ++i) {
     const Answer<policy> answer = function(raw);
     asm volatile("" : : "r"(&answer) : "memory");
   }
-  return bare_metal::counted();
+  return images::counted();
 }
 
 // What repetitions cost, without what is around them: two runs' difference.
@@ -111,7 +111,7 @@ Range count_inference(std::uint32_t inputs) {
 // A copy of the controller takes each repetition: copying is counted on its own, and taken off.
 [[gnu::noinline]] std::uint32_t count_steps(const Controller& before, const Inputs& inputs, Outputs& outputs,
                                             std::uint32_t repetitions, bool steps) {
-  bare_metal::restart_counter();
+  images::restart_counter();
   for (std::uint32_t i = 0; i < repetitions; ++i) {
     Controller controller = before;
     asm volatile("" : : "r"(&controller) : "memory");
@@ -119,10 +119,10 @@ Range count_inference(std::uint32_t inputs) {
       controller.step(inputs, outputs);
     }
   }
-  return bare_metal::counted();
+  return images::counted();
 }
 
-void count_recorded_steps(bare_metal::Recording& recording, std::uint32_t most_ticks) {
+void count_recorded_steps(images::Recording& recording, std::uint32_t most_ticks) {
   const std::uint32_t repetitions = exact_repetitions();
   Controller controller;
   Outputs outputs;
@@ -132,7 +132,7 @@ void count_recorded_steps(bare_metal::Recording& recording, std::uint32_t most_t
   Range self_test;  // a golden vector each
   Range with_decision;
   Range without;
-  bare_metal::RecordedFrame recorded;
+  images::RecordedFrame recorded;
   while (tick < most_ticks && recording.next(recorded)) {
     if (recorded.answer) {
       continue;
@@ -153,49 +153,49 @@ void count_recorded_steps(bare_metal::Recording& recording, std::uint32_t most_t
     }
     (decided ? with_decision : boots ? self_test : without).add(instructions(all - copying, repetitions));
   }
-  console::print_line("step ticks", tick);
-  console::print_line("step in self-test max", self_test.greatest);
-  console::print_line("step without decision min", without.least);
-  console::print_line("step without decision max", without.greatest);
-  console::print_line("step with decision min", with_decision.least);
-  console::print_line("step with decision max", with_decision.greatest);
+  images::console::print_line("step ticks", tick);
+  images::console::print_line("step in self-test max", self_test.greatest);
+  images::console::print_line("step without decision min", without.least);
+  images::console::print_line("step without decision max", without.greatest);
+  images::console::print_line("step with decision min", with_decision.least);
+  images::console::print_line("step with decision max", with_decision.greatest);
 }
 
 }  // namespace
 
 int main() {
-  console::print("kernel ");
-  console::print(ChosenKernel<trained>::name);
-  console::print("\n");
+  images::console::print("kernel ");
+  images::console::print(ChosenKernel<trained>::name);
+  images::console::print("\n");
   using Shape = ShapeOf<trained>;
-  console::print_line(
+  images::console::print_line(
       "multiply-accumulates",
       Shape::inputs * Shape::hidden1 + Shape::hidden1 * Shape::hidden2 + Shape::hidden2 * Shape::actions);
-  console::print_line("weight bytes", Packed<trained>::bytes);
-  console::print_line("controller bytes", sizeof(Controller));
-  if (const std::uint32_t inputs = console::argument("inputs", 0); inputs > 0) {
+  images::console::print_line("weight bytes", Packed<trained>::bytes);
+  images::console::print_line("controller bytes", sizeof(Controller));
+  if (const std::uint32_t inputs = images::console::argument("inputs", 0); inputs > 0) {
     const Range range = count_inference<trained>(inputs);
-    console::print_line("inference inputs", inputs);
-    console::print_line("inference repetitions", exact_repetitions());
-    console::print_line("inference min", range.least);
-    console::print_line("inference max", range.greatest);
+    images::console::print_line("inference inputs", inputs);
+    images::console::print_line("inference repetitions", exact_repetitions());
+    images::console::print_line("inference min", range.least);
+    images::console::print_line("inference max", range.greatest);
   }
-  if (const std::uint32_t inputs = console::argument("plain", 0); inputs > 0) {
+  if (const std::uint32_t inputs = images::console::argument("plain", 0); inputs > 0) {
     const Range range = count_inference<trained, kernel::Portable>(inputs);
-    console::print_line("plain min", range.least);
-    console::print_line("plain max", range.greatest);
+    images::console::print_line("plain min", range.least);
+    images::console::print_line("plain max", range.greatest);
   }
-  if (const char* name = console::word_argument("recording"); name != nullptr) {
-    bare_metal::Recording recording(name);
-    count_recorded_steps(recording, console::argument("ticks", 2'000));
+  if (const char* name = images::console::word_argument("recording"); name != nullptr) {
+    images::Recording recording(name);
+    count_recorded_steps(recording, images::console::argument("ticks", 2'000));
   }
-  if (const std::uint32_t steps = console::argument("search", 0); steps > 0) {
-    const bare_metal::SearchResult found =
-        bare_metal::search_longest_step(steps, console::argument("seed", 1));
-    console::print_line("search steps", steps);
-    console::print_line("search decisions", found.decisions);
-    console::print_line("search max", found.greatest_instructions);
+  if (const std::uint32_t steps = images::console::argument("search", 0); steps > 0) {
+    const images::SearchResult found =
+        images::search_longest_step(steps, images::console::argument("seed", 1));
+    images::console::print_line("search steps", steps);
+    images::console::print_line("search decisions", found.decisions);
+    images::console::print_line("search max", found.greatest_instructions);
   }
-  console::print_line("stack high water", bare_metal::stack_high_water_bytes());
-  console::exit(0);
+  images::console::print_line("stack high water", bare_metal::stack_high_water_bytes());
+  images::console::exit(0);
 }

@@ -1,13 +1,13 @@
-#include "firmware/ports/bare_metal/step_search.hpp"
+#include "tests/images/step_search.hpp"
 
 #include <array>
 #include <span>
 
 #include "firmware/core/controller.hpp"
-#include "firmware/ports/bare_metal/instruction_counter.hpp"
-#include "tests/golden/synthetic_policy.hpp"
+#include "tests/images/instruction_counter.hpp"
+#include "tests/images/synthetic_policy.hpp"
 
-namespace striker::bare_metal {
+namespace striker::images {
 
 namespace {
 
@@ -160,4 +160,4 @@ SearchResult search_longest_step(std::uint32_t steps, std::uint32_t seed) {
   return result;
 }
 
-}  // namespace striker::bare_metal
+}  // namespace striker::images

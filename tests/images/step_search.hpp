@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace striker::bare_metal {
+namespace striker::images {
 
 // No tick may bring more frames than this: 1 ms of a 1 Mbit/s bus holds 21 of the shortest (47 bits each).
 inline constexpr std::uint32_t most_frames_a_tick = 24;
@@ -16,4 +16,4 @@ struct SearchResult {
 
 [[nodiscard]] SearchResult search_longest_step(std::uint32_t steps, std::uint32_t seed);
 
-}  // namespace striker::bare_metal
+}  // namespace striker::images

@@ -1,9 +1,9 @@
-#include "firmware/ports/bare_metal/console.hpp"
+#include "tests/images/console.hpp"
 
 #include <array>
 #include <cstring>
 
-namespace striker::console {
+namespace striker::images::console {
 
 namespace {
 
@@ -129,4 +129,4 @@ void exit(int status) {
   }
 }
 
-}  // namespace striker::console
+}  // namespace striker::images::console
