@@ -13,9 +13,9 @@
 
 #include "firmware/core/kernel/portable.hpp"
 #include "firmware/core/network.hpp"
+#include "firmware/ports/bare_metal/memory.hpp"
 #include "tests/images/console.hpp"
 #include "tests/images/instruction_counter.hpp"
-#include "firmware/ports/bare_metal/memory.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/images/step_search.hpp"
 #include "tests/images/synthetic_policy.hpp"

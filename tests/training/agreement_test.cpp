@@ -1,5 +1,5 @@
 // Agreement and regret against the float network, and the file of decisions.
-#include "training/agreement.hpp"
+#include "training/export/agreement.hpp"
 
 #include "tests/training/fixtures.hpp"
 

@@ -1,5 +1,5 @@
 // The ceiling is attained, and nothing is above it.
-#include "training/ceiling.hpp"
+#include "training/ceiling/ceiling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sil/world/random.hpp"
-#include "training/ceiling_run.hpp"
+#include "training/ceiling/ceiling_run.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,5 +1,5 @@
 // The configuration: what is wrong is named.
-#include "training/config.hpp"
+#include "training/run/config.hpp"
 
 #include "tests/training/fixtures.hpp"
 

@@ -1,5 +1,5 @@
 // The experiment: its workers, its runs as files, its program from start to end.
-#include "training/experiment.hpp"
+#include "training/experiment/experiment.hpp"
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -9,8 +9,8 @@
 #include <set>
 
 #include "tests/training/fixtures.hpp"
-#include "training/experiment_summary.hpp"
-#include "training/workers.hpp"
+#include "training/experiment/experiment_summary.hpp"
+#include "training/experiment/workers.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,5 +1,5 @@
 // The exported header: it compiles, proves itself, and says the same twice.
-#include "training/export.hpp"
+#include "training/export/export.hpp"
 
 #include <fmt/format.h>
 

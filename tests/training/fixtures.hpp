@@ -12,9 +12,9 @@
 #include <random>
 #include <string>
 
-#include "training/config.hpp"
-#include "training/model.hpp"
-#include "training/training_run.hpp"
+#include "training/model/model.hpp"
+#include "training/run/config.hpp"
+#include "training/run/training_run.hpp"
 
 namespace striker::training {
 

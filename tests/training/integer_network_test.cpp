@@ -1,5 +1,5 @@
 // The exporter's integer network: its arithmetic and its bounds.
-#include "training/integer_network.hpp"
+#include "training/export/integer_network.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The episodes that a learner and an evaluation meet.
-#include "training/kick_env.hpp"
+#include "training/task/kick_environment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Models as files: the project's own and other people's.
-#include "training/model.hpp"
+#include "training/model/model.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "tests/training/fixtures.hpp"
-#include "training/safetensors.hpp"
+#include "training/model/safetensors.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,5 +1,5 @@
 // The network's forward and backward pass, and Adam.
-#include "training/network.hpp"
+#include "training/learner/network.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // The quantiser: the proof holds, the ranges are kept, and the choices stay.
-#include "training/quantise.hpp"
+#include "training/export/quantise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "tests/training/fixtures.hpp"
-#include "training/agreement.hpp"
+#include "training/export/agreement.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,12 +1,12 @@
 // The replay buffer, the n-step returns and the priorities.
-#include "training/replay.hpp"
+#include "training/learner/replay_buffer.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "training/priorities.hpp"
+#include "training/learner/priorities.hpp"
 
 namespace striker::training {
 namespace {

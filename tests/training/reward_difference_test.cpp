@@ -1,11 +1,11 @@
 // The reward that an integer network loses against the float one, in paired episodes.
-#include "training/reward_difference.hpp"
+#include "training/export/reward_difference.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "tests/training/fixtures.hpp"
-#include "training/quantise.hpp"
+#include "training/export/quantise.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,5 +1,5 @@
 // The scripted rivals, and where the interceptor's parameters come from.
-#include "training/rivals.hpp"
+#include "training/ceiling/rivals.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The safetensors reader and writer: round trips, and every malformed file refused in one line.
-#include "training/safetensors.hpp"
+#include "training/model/safetensors.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,5 @@
 // The RCS state: what the corrected equations promise, and that the printed ones break it.
-#include "training/state.hpp"
+#include "training/task/state.hpp"
 
 #include <gtest/gtest.h>
 

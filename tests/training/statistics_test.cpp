@@ -1,5 +1,5 @@
 // Statistics over runs: against their definitions, and what an interval promises.
-#include "training/statistics.hpp"
+#include "training/experiment/statistics.hpp"
 
 #include <gtest/gtest.h>
 

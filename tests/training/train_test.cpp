@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/training/fixtures.hpp"
-#include "training/training_run.hpp"
+#include "training/run/training_run.hpp"
 
 namespace striker::training {
 namespace {

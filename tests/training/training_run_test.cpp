@@ -1,5 +1,5 @@
 // A training as a directory: interrupted, resumed, damaged.
-#include "training/training_run.hpp"
+#include "training/run/training_run.hpp"
 
 #include <sys/resource.h>
 

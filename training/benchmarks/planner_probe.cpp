@@ -2,7 +2,7 @@
 // that counts instructions finds them under the name `counted_plan` (tools/bench-training).
 #include <fmt/format.h>
 
-#include "training/rivals.hpp"
+#include "training/ceiling/rivals.hpp"
 
 using namespace striker::training;
 

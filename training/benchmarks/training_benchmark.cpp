@@ -3,8 +3,8 @@
 // the ratios.
 #include <benchmark/benchmark.h>
 
-#include "training/dqn.hpp"
-#include "training/training_run.hpp"
+#include "training/learner/dqn.hpp"
+#include "training/run/training_run.hpp"
 
 namespace striker::training {
 namespace {

@@ -1,0 +1,112 @@
+#include "training/ceiling/line_play.hpp"
+
+#include <algorithm>
+
+#include "sil/world/field_specs.hpp"
+#include "sil/world/robot_specs.hpp"
+
+namespace striker::training {
+
+namespace {
+
+constexpr double half_side_m = 0.5 * sil::robot_side_m;
+
+double reach_m(double ball_y_m) {
+  const double beside = std::max(std::abs(ball_y_m) - half_side_m, 0.0);
+  const double left = sil::ball_radius_m * sil::ball_radius_m - beside * beside;
+  return left < 0.0 ? -1.0 : half_side_m + std::sqrt(left);
+}
+
+enum class Way { on, contact, spoiled };
+
+// Where a plan has come to.
+struct Walk {
+  LineState robot;
+  int step = 0;
+  double reward = 0.0;
+};
+
+// One decision on. `spoiled`: the contact, or a near miss, is within the margin.
+Way drive(Walk& walk, const BallTrack& track, int action, double margin_m) {
+  const double set_point = line_set_points_m_s.at(static_cast<std::size_t>(action));
+  for (int i = 0; i < steps_per_decision; ++i, ++walk.step) {
+    const double depth = track.depth_m(walk.step, walk.robot.position_m);
+    if (depth >= 0.0) {
+      walk.reward = contact_reward(track, walk.step, walk.robot);
+      return depth < margin_m ? Way::spoiled : Way::contact;
+    }
+    if (depth > -margin_m) {
+      return Way::spoiled;
+    }
+    advance(walk.robot, set_point);
+  }
+  return Way::on;
+}
+
+}  // namespace
+
+BallTrack ball_track(const sil::BallState& ball, int steps) {
+  BallTrack track;
+  auto [position, velocity] = ball;
+  track.first = steps;
+  for (int i = 0; i < steps; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    track.x_m[n] = position.x;
+    track.y_m[n] = position.y;
+    track.reach_m[n] = reach_m(position.y);
+    if (track.reach_m[n] >= 0.0) {
+      track.first = std::min(track.first, i);
+      track.end = i + 1;
+    }
+    position = {position.x + physics_step_s * velocity.x, position.y + physics_step_s * velocity.y};
+    velocity = {kept_in_physics_step * velocity.x, kept_in_physics_step * velocity.y};
+  }
+  track.first = std::min(track.first, track.end);
+  return track;
+}
+
+BallTrack ball_track(const sil::KickStart& start) {
+  const double c = std::cos(start.robot.heading_rad);
+  const double s = std::sin(start.robot.heading_rad);
+  const auto in_frame = [&](sil::Vec2 a) { return sil::Vec2{c * a.x + s * a.y, c * a.y - s * a.x}; };
+  const auto& [position, velocity] = start.ball;
+  return ball_track({.position_m = in_frame({position.x - start.robot.x_m, position.y - start.robot.y_m}),
+                     .velocity_m_s = in_frame(velocity)});
+}
+
+PlanValue best_plan(const BallTrack& track, const LineState& robot, int decisions, double margin_m) {
+  PlanValue best;
+  // Later decisions change nothing: the ball has left the line's neighbourhood.
+  const int useful = std::min(decisions, (track.end + steps_per_decision - 1) / steps_per_decision);
+  const auto consider = [&best](Way way, const Walk& walk, const Plan& plan) {
+    if (way == Way::contact && (!best.contact || walk.reward > best.reward)) {
+      best = {.plan = plan, .reward = walk.reward, .contact = true};
+    }
+  };
+  Way reversing = Way::on;
+  Walk reversed{.robot = robot};
+  for (int reverse = 0; reversing == Way::on && reverse <= std::min(most_reverse, useful); ++reverse) {
+    Way waiting = Way::on;
+    Walk waited = reversed;
+    for (int wait = 0; waiting == Way::on && reverse + wait <= useful; ++wait) {
+      const Plan plan{.reverse = reverse, .wait = wait};
+      Way ending = Way::on;
+      Walk forward = waited;
+      for (int i = reverse + wait; ending == Way::on && i < useful; ++i) {
+        ending = drive(forward, track, 0, margin_m);
+      }
+      consider(ending, forward, plan);
+      if (reverse + wait < useful) {
+        waiting = drive(waited, track, 1, margin_m);
+        consider(waiting, waited, {.reverse = reverse, .wait = wait + 1});
+      }
+    }
+    if (reverse < useful) {
+      reversing = drive(reversed, track, 2, margin_m);
+      consider(reversing, reversed, {.reverse = reverse + 1, .wait = 0});
+    }
+  }
+  return best;
+}
+
+}  // namespace striker::training

@@ -1,0 +1,95 @@
+// The kick task on one line. The three actions drive straight, so the robot's centre stays on the line of its
+// initial heading, and until the contact nothing moves it but its wheels: two numbers are its whole state.
+// The ball rolls on freely meanwhile. The arithmetic is that of the fast world (sil/world/planar_robot.hpp).
+//
+// Everything is in the frame of the robot at the start: x along the heading.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "sil/world/planar_robot.hpp"
+#include "training/task/kick_environment.hpp"
+
+namespace striker::training {
+
+// Forward, stop, backward: both wheels' set-point (paper, section IV.A).
+inline constexpr std::array line_set_points_m_s = {2.55, 0.0, -2.55};
+
+inline constexpr sil::KickRules official;
+inline constexpr double no_contact_reward = sil::kick_decisions * official.waiting_reward;
+
+inline constexpr int task_steps = sil::kick_decisions * steps_per_decision;
+inline constexpr double kept_in_physics_step = 0.9977710522882823;  // 0.8^0.01
+
+struct LineState {
+  double position_m = 0.0;
+  double speed_m_s = 0.0;
+};
+
+inline void advance(LineState& robot, double set_point_m_s) {
+  const double moved_m_s = sil::straight_speed_m_s(
+      robot.speed_m_s, {.rim_speed_m_s = set_point_m_s, .torque_ceiling_Nm = torque_ceiling_Nm},
+      physics_step_s);
+  robot.position_m += physics_step_s * moved_m_s;
+  robot.speed_m_s = kept_in_physics_step * moved_m_s;
+}
+
+// No robot that starts at rest is faster, nor gains more in a step.
+inline constexpr double top_speed_m_s = 2.55;
+inline constexpr double most_gain_m_s = 0.118;  // 0.111 from the wheels, 0.006 from damping when it reverses
+
+// Where the ball is before each physics step, and how far from its x the robot's centre touches it there:
+// below 0 nowhere.
+struct BallTrack {
+  std::array<double, task_steps> x_m;
+  std::array<double, task_steps> y_m;
+  std::array<double, task_steps> reach_m;
+  // Steps outside [first, end) have no reach. None: first = end.
+  int first = 0;
+  int end = 0;
+
+  // How far inside the contact the robot is, along its line. Below 0: no contact.
+  [[nodiscard]] double depth_m(int step, double position_m) const {
+    const auto n = static_cast<std::size_t>(step);
+    return reach_m[n] - std::abs(x_m[n] - position_m);
+  }
+};
+
+// `ball` in the robot's frame, now; only `steps` physics steps are left.
+[[nodiscard]] BallTrack ball_track(const sil::BallState& ball, int steps = task_steps);
+[[nodiscard]] BallTrack ball_track(const sil::KickStart& start);
+
+// What the contact pays that is found before this step, with the decisions waited from step 0 on.
+[[nodiscard]] inline double contact_reward(const BallTrack& track, int step, const LineState& robot) {
+  const auto n = static_cast<std::size_t>(step);
+  const double ahead_m = track.x_m[n] - robot.position_m;
+  const int waited = step / steps_per_decision;
+  return official.waiting_reward * waited +
+         official.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) +
+         official.speed_reward_s_m * robot.speed_m_s;
+}
+
+// Reverse, wait, then forward to the end, each for some decisions.
+struct Plan {
+  int reverse = 0;
+  int wait = 0;
+
+  [[nodiscard]] int action(int decision) const {
+    return decision < reverse ? 2 : static_cast<int>(decision < reverse + wait);
+  }
+};
+
+struct PlanValue {
+  Plan plan;
+  double reward = no_contact_reward;
+  bool contact = false;
+};
+
+// The best of all plans that reverse for at most `most_reverse` decisions. With a margin: of those whose
+// contact is at least so deep, after steps that all miss the ball by as much.
+inline constexpr int most_reverse = 12;
+[[nodiscard]] PlanValue best_plan(const BallTrack& track, const LineState& robot, int decisions,
+                                  double margin_m = 0.0);
+
+}  // namespace striker::training

@@ -1,0 +1,91 @@
+#include "training/ceiling/rivals.hpp"
+
+#include <cmath>
+
+#include "sil/world/field_specs.hpp"
+#include "sil/world/random.hpp"
+#include "sil/world/robot_specs.hpp"
+
+namespace striker::training {
+
+namespace {
+
+constexpr std::uint64_t random_stream = 105;
+
+constexpr int forward = 0;
+constexpr int stop = 1;
+constexpr int backward = 2;
+
+constexpr double damping_per_s = 0.22314355131420976;  // -ln 0.8
+constexpr double forward_gain_m_s2 = 11.1;
+
+// How long the robot takes for this way at full throttle.
+double way_time_s(double way_m, double speed_m_s) {
+  const double faster_m_s = line_set_points_m_s[0] - speed_m_s;
+  const double way_to_top_m = (speed_m_s + 0.5 * faster_m_s) * faster_m_s / forward_gain_m_s2;
+  if (way_m > way_to_top_m) {
+    return faster_m_s / forward_gain_m_s2 + (way_m - way_to_top_m) / line_set_points_m_s[0];
+  }
+  const double root = speed_m_s * speed_m_s + 2.0 * forward_gain_m_s2 * way_m;
+  return root < 0.0 ? 0.0 : (std::sqrt(root) - speed_m_s) / forward_gain_m_s2;
+}
+
+}  // namespace
+
+int intercept(const InterceptorParameters& parameters, const KickEnv& env) {
+  const RcsState& seen = env.state();
+  const sil::Vec2 ball{seen.ball_x_m, seen.ball_y_m};
+  const sil::Vec2 velocity{seen.ball_vx_m_s, seen.ball_vy_m_s};
+  constexpr double beside_m = 0.5 * sil::robot_side_m + sil::ball_radius_m;
+  if (std::abs(ball.y) < beside_m) {
+    return ball.x > 0.0 ? forward : stop;
+  }
+  // The ball slows down: its way is its speed times this, at most 1 / damping.
+  const double slowed_s = -ball.y / velocity.y;
+  if (!(slowed_s > 0.0) || slowed_s * damping_per_s >= 1.0) {
+    return stop;
+  }
+  const double crossing_s = -std::log(1.0 - damping_per_s * slowed_s) / damping_per_s;
+  const double way_m = ball.x + velocity.x * slowed_s - parameters.stop_short_m;
+  const double spare_s = crossing_s - way_time_s(way_m, seen.robot_speed_m_s);
+  if (way_m < parameters.run_up_m && spare_s > parameters.time_to_back_up_s) {
+    return backward;
+  }
+  return way_m > 0.0 && spare_s < parameters.lead_s ? forward : stop;
+}
+
+int plan_ahead(const KickEnv& env) {
+  const RcsState& seen = env.state();
+  const int left = env.decisions_left();
+  const BallTrack track = ball_track(
+      {.position_m = {seen.ball_x_m, seen.ball_y_m}, .velocity_m_s = {seen.ball_vx_m_s, seen.ball_vy_m_s}},
+      left * steps_per_decision);
+  const PlanValue value = best_plan(track, {.position_m = 0.0, .speed_m_s = seen.robot_speed_m_s}, left);
+  return value.contact && value.reward > left * official.waiting_reward ? value.plan.action(0) : stop;
+}
+
+std::string_view name_of(Rival rival) {
+  constexpr std::array<std::string_view, all_rivals.size()> names = {"forward", "stop", "random",
+                                                                     "interceptor", "planner"};
+  return names.at(static_cast<std::size_t>(rival));
+}
+
+Choice rule_of(Rival rival, std::uint64_t seed, std::uint64_t episode) {
+  switch (rival) {
+    case Rival::forward:
+      return [](const KickEnv&) { return forward; };
+    case Rival::stop:
+      return [](const KickEnv&) { return stop; };
+    case Rival::random:
+      return [random = sil::Random(seed, episode, random_stream)](const KickEnv&) mutable {
+        return static_cast<int>(random.below(line_set_points_m_s.size()));
+      };
+    case Rival::interceptor:
+      return [](const KickEnv& env) { return intercept({}, env); };
+    case Rival::planner:
+      break;
+  }
+  return plan_ahead;
+}
+
+}  // namespace striker::training

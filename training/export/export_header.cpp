@@ -1,0 +1,153 @@
+#include "training/export/export_header.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "training/model/hash.hpp"
+
+namespace striker::training {
+
+namespace {
+
+constexpr std::size_t columns = 110;
+
+void add_layer(Fnv1a& hash, const IntegerLayer& layer, WeightType type) {
+  for (const std::int16_t weight : layer.weights) {
+    if (type == WeightType::int8) {
+      hash.add(static_cast<std::int8_t>(weight));
+    } else {
+      hash.add(weight);
+    }
+  }
+  for (const std::int32_t bias : layer.biases) {
+    hash.add(bias);
+  }
+  hash.add(static_cast<std::uint8_t>(layer.shift));
+}
+
+// "{{1, 2, 3}}" as std::array wants it, from this column on, broken over lines.
+template <class Numbers>
+std::string array_of(const Numbers& numbers, std::size_t column) {
+  constexpr std::size_t indent = 12;
+  std::string text = "{{";
+  column += text.size();
+  for (std::size_t i = 0; i < std::size(numbers); ++i) {
+    std::string number = fmt::format("{}{}", numbers[i], i + 1 < std::size(numbers) ? "," : "}}");
+    if (column + number.size() + 2 > columns) {
+      text += '\n';
+      text.append(indent, ' ');
+      column = indent;
+    } else if (i > 0) {
+      text += ' ';
+      ++column;
+    }
+    text += number;
+    column += number.size();
+  }
+  return text;
+}
+
+std::string layer_text(const char* name, const IntegerLayer& layer) {
+  std::string text = fmt::format("    .{} = {{\n        .weights = {{{{\n", name);
+  for (std::size_t neuron = 0; neuron < layer.outputs(); ++neuron) {
+    text += fmt::format("            {},\n", array_of(layer.row(neuron), 12));
+  }
+  text += fmt::format("        }}}},\n        .biases = {},\n        .shift = {},\n    }},\n",
+                      array_of(layer.biases, 18), layer.shift);
+  return text;
+}
+
+std::string inputs_text(const ExportedPolicy& policy) {
+  std::string elements;
+  std::string scales;
+  for (std::size_t i = 0; i < policy.inputs.size(); ++i) {
+    const auto [element, ago] = policy.inputs[i];
+    const InputScale& scale = policy.network.input_scales[i];
+    elements += fmt::format("        {{.element = core::StateElement::{}, .decisions_ago = {}}},\n",
+                            facts_of(element).name, ago);
+    scales += fmt::format("        {{.multiplier = {}, .shift = {}}},\n", scale.multiplier, scale.shift);
+  }
+  return fmt::format(
+      "    .state = {{{{\n{}    }}}},\n    .mirrored = {},\n    .input_scales = {{{{\n{}    }}}},\n",
+      elements, policy.mirrored, scales);
+}
+
+std::string set_points_text(const std::vector<SetPoint>& set_points) {
+  std::string text = "    .set_points = {{\n";
+  for (const SetPoint& set_point : set_points) {
+    text += fmt::format("        {{.left_mm_s = {}, .right_mm_s = {}}},\n", set_point.left_mm_s,
+                        set_point.right_mm_s);
+  }
+  return text + "    }},\n";
+}
+
+std::string goldens_text(const std::vector<GoldenVector>& goldens) {
+  std::string text = "    .golden_vectors = {{\n";
+  for (const GoldenVector& golden : goldens) {
+    text += fmt::format("        {{.raw = {},\n         .sums = {},\n         .action = {}}},\n",
+                        array_of(golden.raw, 16), array_of(golden.answer.sums, 17), golden.answer.action);
+  }
+  return text + "    }},\n";
+}
+
+}  // namespace
+
+std::uint32_t identity_of(const ExportedPolicy& policy) {
+  Fnv1a hash;
+  hash.add(policy.configuration_hash);
+  hash.add(policy.decision_period_ms);
+  for (const StateInput& input : policy.inputs) {
+    hash.add(static_cast<std::uint8_t>(input.element));
+    hash.add(static_cast<std::uint8_t>(input.decisions_ago));
+  }
+  hash.add(static_cast<std::uint8_t>(policy.mirrored));
+  for (const InputScale& scale : policy.network.input_scales) {
+    hash.add(scale.multiplier);
+    hash.add(static_cast<std::uint8_t>(scale.shift));
+  }
+  for (const IntegerLayer& layer : policy.network.layers) {
+    add_layer(hash, layer, policy.network.weights);
+  }
+  for (const SetPoint& set_point : policy.set_points) {
+    hash.add(set_point.left_mm_s);
+    hash.add(set_point.right_mm_s);
+  }
+  for (const GoldenVector& golden : policy.golden_vectors) {
+    for (const std::int32_t raw : golden.raw) {
+      hash.add(raw);
+    }
+    for (const std::int32_t sum : golden.answer.sums) {
+      hash.add(sum);
+    }
+    hash.add(static_cast<std::uint8_t>(golden.answer.action));
+  }
+  return hash.value();
+}
+
+std::string header_text(const ExportedPolicy& policy, const std::vector<std::string>& notes) {
+  const auto& layers = policy.network.layers;
+  std::string text;
+  for (const std::string& note : notes) {
+    text += note.empty() ? "//\n" : fmt::format("// {}\n", note);
+  }
+  text += "#pragma once\n\n#include \"firmware/core/policy.hpp\"\n\nnamespace striker::policy {\n\n";
+  text += "// clang-format off\n";
+  text += fmt::format("inline constexpr core::Policy<{}, {}, {}, {}, {}{}> trained = {{\n",
+                      policy.network.input_scales.size(), layers.at(0).outputs(), layers.at(1).outputs(),
+                      layers.at(2).outputs(), policy.golden_vectors.size(),
+                      policy.network.weights == WeightType::int8 ? ", std::int8_t" : "");
+  text += fmt::format("    .identity = 0x{:08X}U,\n    .configuration_hash = 0x{:08X}U,\n",
+                      identity_of(policy), policy.configuration_hash);
+  text += fmt::format("    .decision_period_ms = {},\n", policy.decision_period_ms);
+  text += inputs_text(policy);
+  text += layer_text("layer1", layers.at(0));
+  text += layer_text("layer2", layers.at(1));
+  text += layer_text("output", layers.at(2));
+  text += set_points_text(policy.set_points);
+  text += goldens_text(policy.golden_vectors);
+  text += "};\n// clang-format on\n\n}  // namespace striker::policy\n";
+  return text;
+}
+
+}  // namespace striker::training

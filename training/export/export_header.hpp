@@ -1,0 +1,41 @@
+// Writes the weight header that firmware/core/policy.hpp describes: the only thing that training hands to
+// the firmware.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "training/export/integer_network.hpp"
+#include "training/task/state.hpp"
+
+namespace striker::training {
+
+struct GoldenVector {
+  std::vector<std::int32_t> raw;
+  IntegerAnswer answer;
+};
+
+struct SetPoint {
+  std::int32_t left_mm_s = 0;
+  std::int32_t right_mm_s = 0;
+};
+
+struct ExportedPolicy {
+  std::uint32_t configuration_hash = 0;  // FNV-1a of the training configuration's text
+  std::int32_t decision_period_ms = 50;
+  StateInputs inputs;
+  bool mirrored = false;
+  IntegerNetwork network;
+  std::vector<SetPoint> set_points;  // one an action
+  std::vector<GoldenVector> golden_vectors;
+};
+
+// The identity as `identity_of` in firmware/core/policy_proof.hpp specifies it.
+[[nodiscard]] std::uint32_t identity_of(const ExportedPolicy& policy);
+
+// `notes` become the comment on top, a line each, of at most 105 characters. The text depends on the
+// arguments alone: no dates, no paths.
+[[nodiscard]] std::string header_text(const ExportedPolicy& policy, const std::vector<std::string>& notes);
+
+}  // namespace striker::training

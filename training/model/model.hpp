@@ -1,0 +1,42 @@
+// A trained Q network as a file: safetensors, float32, the layers named as PyTorch names those of
+// Sequential(Linear, ReLU, Linear, ReLU, Linear): "0.weight" [64, 6], "0.bias" [64], "2.weight", ...
+//
+// Networks trained elsewhere are read too: any names that end in a number and ".weight" or ".bias", in
+// ascending order, whatever stands before the number ("q_net.q_net.0.weight" of Stable-Baselines3,
+// "network.0.weight" of CleanRL). Of several networks in a file, one whose name holds "target" is left out.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "training/learner/network.hpp"
+#include "training/model/safetensors.hpp"
+#include "training/run/config.hpp"
+
+namespace striker::training {
+
+struct Model {
+  Parameters parameters;
+  // What striker-train notes: "configuration" (the text, every key), "configuration_name", "seed",
+  // "identity", "episodes", and "mean_reward" where it was measured. A model from elsewhere may lack all.
+  std::map<std::string, std::string> metadata;
+};
+
+// Errors as `read_safetensors`; also a missing or doubtful tensor, or layers that do not fit together.
+[[nodiscard]] Model load_model(const std::filesystem::path& file);
+void save_model(const Model& model, const std::filesystem::path& file);
+
+// The layers as tensors, and back; errors name `file`.
+[[nodiscard]] std::vector<Tensor> tensors_of(const Parameters& parameters);
+[[nodiscard]] Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& file);
+
+// FNV-1a of the weights, layer by layer as in the file; printed as 8 hexadecimal digits.
+[[nodiscard]] std::string model_identity(const Parameters& parameters);
+
+// What the network was trained for, from its configuration. `config_file` tells it of a model that does not
+// hold one; without either it is the official task with the RCS state. Throws if inputs or actions do not
+// fit the network.
+[[nodiscard]] EnvConfig task_of(const Model& model, const std::filesystem::path& config_file);
+
+}  // namespace striker::training

@@ -1,0 +1,122 @@
+// striker-evaluate: what a float network is worth, on held-out episodes or beside a controller's decisions.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/files.hpp"
+#include "sil/report/kick_report.hpp"
+#include "training/export/agreement.hpp"
+#include "training/model/model.hpp"
+#include "training/task/kick_environment.hpp"
+
+namespace striker::training {
+
+namespace {
+
+struct Options {
+  std::filesystem::path model;
+  int episodes = 0;
+  std::uint64_t seed = 0;
+  std::string pose = "origin";
+  std::string velocities = "true";
+  std::string world = "full";
+  std::filesystem::path config;
+  std::filesystem::path decisions;
+  std::filesystem::path json;
+};
+
+int evaluate_play(const Options& options, const Model& model, EnvConfig task) {
+  task.pose = options.pose == "origin" ? sil::PoseMode::origin : sil::PoseMode::anywhere;
+  task.velocities = options.velocities == "true" ? Velocities::exact : Velocities::estimated;
+  task.world = options.world == "full" ? World::full : World::fast;
+  KickEnv env(task);
+  Actor actor(model.parameters.shape());
+  const Choice choose = [&](const KickEnv& seen) { return actor.choose(model.parameters, seen.features()); };
+  sil::KickRun run;
+  run.seed = options.seed;
+  run.plant = "servo";
+  run.pose = options.pose;
+  run.policy = model_identity(model.parameters);
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < options.episodes; ++i) {
+    const auto episode = static_cast<std::uint64_t>(i);
+    run.episodes.push_back(play(env, options.seed, episode, choose));
+  }
+  run.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.simulated_s = env.simulated_s();
+  if (!options.json.empty()) {
+    sil::write_json(run, options.json);
+  }
+  fmt::print("{}", sil::format_table(run, false));
+  return 0;
+}
+
+int evaluate_decisions(const Options& options, const Model& model, const EnvConfig& task) {
+  const Agreement result =
+      agreement(model.parameters, task.inputs, load_decisions(options.decisions, model.parameters.shape()));
+  if (!options.json.empty()) {
+    const nlohmann::ordered_json report = {{"policy", model_identity(model.parameters)},
+                                           {"states", result.states},
+                                           {"agreement", result.agreement},
+                                           {"clear_gap", clear_gap},
+                                           {"clear_states", result.clear_states},
+                                           {"clear_agreement", result.clear_agreement},
+                                           {"mean_regret", result.mean_regret}};
+    host::write_file(options.json, report.dump(2) + "\n");
+  }
+  fmt::print(
+      "states before contact      {}\nagreement, all states      {:.4f}\n"
+      "agreement, Q gap > {}    {:.4f} ({} states)\nmean regret in float Q     {:.5f}\n",
+      result.states, result.agreement, clear_gap, result.clear_agreement, result.clear_states,
+      result.mean_regret);
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace striker::training
+
+int main(int argc, char** argv) {
+  using namespace striker::training;
+  CLI::App app(
+      "Plays the kick task greedily with a float network (ODE world, servo plant), on episodes that no "
+      "training\n"
+      "meets: episode i of a seed is the same one in striker-sil. With --decisions it plays nothing, but "
+      "says\n"
+      "how far the choices in a file that striker-sil wrote agree with the network's. The network may come "
+      "from\n"
+      "elsewhere (PyTorch, Stable-Baselines3), if it was saved as safetensors in float32.",
+      "striker-evaluate");
+  Options options;
+  app.add_option("--model", options.model, "safetensors file")->required();
+  auto* episodes = app.add_option("--episodes", options.episodes, "how many, 1 to 10000000")
+                       ->check(CLI::Range(1, 10'000'000));
+  auto* seed = app.add_option("--seed", options.seed, "of the episodes")->check(CLI::NonNegativeNumber);
+  app.add_option("--pose", options.pose, "the robot's start: origin or anywhere on the field")
+      ->check(CLI::IsMember({"origin", "anywhere"}))
+      ->capture_default_str();
+  app.add_option("--config", options.config,
+                 "the TOML file whose task it was trained for, if the model does not hold it");
+  app.add_option("--velocities", options.velocities, "what the network sees: true or estimated velocities")
+      ->check(CLI::IsMember({"true", "estimated"}))
+      ->capture_default_str();
+  app.add_option("--world", options.world, "full: wheel bodies (the reference); fast: the training's world")
+      ->check(CLI::IsMember({"full", "fast"}))
+      ->capture_default_str();
+  auto* decisions = app.add_option("--decisions", options.decisions, "CSV file of a controller's decisions");
+  app.add_option("--json", options.json, "write the figures to this file");
+  episodes->needs(seed)->excludes(decisions);
+  return host::run(app, argc, argv, [&] {
+    if (!*episodes && !*decisions) {
+      throw std::runtime_error("give --episodes and --seed, or --decisions");
+    }
+    const Model model = load_model(options.model);
+    const EnvConfig task = task_of(model, options.config);
+    return *decisions ? evaluate_decisions(options, model, task) : evaluate_play(options, model, task);
+  });
+}

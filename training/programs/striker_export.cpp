@@ -1,0 +1,74 @@
+// striker-export: quantises a model, proves that it cannot overflow, and writes the firmware's header.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/files.hpp"
+#include "training/export/export.hpp"
+
+namespace striker::training {
+
+namespace {
+
+struct Options {
+  std::filesystem::path model;
+  std::filesystem::path config;
+  std::filesystem::path header;
+  std::filesystem::path report;
+  std::string weights = "int16";
+};
+
+int export_to(const Options& options) {
+  const Model model = load_model(options.model);
+  const WeightType weights = options.weights == "int8" ? WeightType::int8 : WeightType::int16;
+  const Export exported = export_model(model, task_of(model, options.config), weights);
+  host::write_file(options.header, header_of(exported, model));
+  if (!options.report.empty()) {
+    host::write_file(options.report, report_of(exported, model));
+  }
+  const Agreement& agreement = exported.agreement;
+  fmt::print("{}: identity {:08x}, {} weights\n", options.header.string(), identity_of(exported.policy),
+             options.weights);
+  for (std::size_t l = 0; l < exported.quantised.layers.size(); ++l) {
+    const LayerReport& layer = exported.quantised.layers[l];
+    fmt::print("layer {}: range used {:.1f} %, headroom {:.2f} bits, mean error {:.5f}, greatest {:.4f}\n",
+               l + 1, 100.0 * layer.range_used, layer.headroom_bits, layer.mean_error, layer.greatest_error);
+  }
+  fmt::print("against float, {} states: agreement {:.4f}, with a Q gap above {} {:.4f}, mean regret {:.5f}\n",
+             agreement.states, agreement.agreement, clear_gap, agreement.clear_agreement,
+             agreement.mean_regret);
+  const RewardDifference& reward = exported.reward;
+  fmt::print(
+      "in play, {} episodes of the servo plant: mean reward {:.3f}, float {:.3f}, difference {:+.4f} +- "
+      "{:.4f}\n",
+      reward.episodes, reward.integer_mean, reward.float_mean, reward.integer_mean - reward.float_mean,
+      1.96 * reward.standard_error);
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace striker::training
+
+int main(int argc, char** argv) {
+  using namespace striker::training;
+  CLI::App app(
+      "Quantises a float model to the integer network of the firmware, proves for every possible input that "
+      "no\n"
+      "sum leaves 32 bits, and writes it as a C++ header with golden vectors. Prints range, headroom and "
+      "error of\n"
+      "each layer, and how far the integer network agrees with the float one.",
+      "striker-export");
+  Options options;
+  app.add_option("MODEL", options.model, "safetensors file")->required();
+  app.add_option("-o,--output", options.header, "the header to write")->required();
+  app.add_option("--config", options.config,
+                 "the TOML file whose task it was trained for, if the model does not hold it");
+  app.add_option("--weights", options.weights, "int16, or int8: half the flash, less precise")
+      ->check(CLI::IsMember({"int16", "int8"}))
+      ->capture_default_str();
+  app.add_option("--report", options.report, "write the figures to this JSON file");
+  return host::run(app, argc, argv, [&options] { return export_to(options); });
+}

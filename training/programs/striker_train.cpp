@@ -1,0 +1,94 @@
+// striker-train: learns the kick from a configuration and a seed, and writes a model and its learning curve.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/progress.hpp"
+#include "firmware/host/stop_signal.hpp"
+#include "training/run/training_run.hpp"
+
+namespace striker::training {
+
+namespace {
+
+struct Options {
+  std::filesystem::path config;
+  std::vector<std::string> changes;
+  std::uint64_t seed = 0;
+  std::filesystem::path out;
+  bool resume = false;
+};
+
+std::string mean_or_not(const std::string& mean) {
+  return mean.empty() ? "not measured" : mean;
+}
+
+void report(const TrainingResult& result, const Config& config, const std::filesystem::path& out) {
+  fmt::print(
+      "{} episodes, {} decisions, {} gradient steps; mean reward over the last {}: {:.3f}; greedy, on {} "
+      "validation episodes: {}\n",
+      result.episodes, result.decisions, result.gradient_steps,
+      std::min(moving_average_span, result.episodes), result.moving_average, config.run.validation_episodes,
+      mean_or_not(result.mean_reward));
+  if (!result.best_mean_reward.empty()) {
+    fmt::print("best on the way: {}, {}\n", result.best_mean_reward, (out / "best.safetensors").string());
+  }
+  fmt::print("{}\n{}\n", (out / "model.safetensors").string(), (out / "learning_curve.csv").string());
+}
+
+int train_and_save(const Options& options) {
+  const Config config = load_config(options.config, options.changes);
+  host::catch_stop_signals();
+  host::ProgressLine line("episode", config.run.episodes);
+  const TrainingResult result =
+      train_into(options.out, config, options.seed, options.resume, [&line](const CurveRow& row) {
+        const int done = row.episode.episode + 1;
+        if (line.due(done)) {
+          line.show(done, fmt::format("reward {:.2f} (mean of {})", row.moving_average,
+                                      std::min(done, moving_average_span)));
+        }
+        return !host::stop_requested();
+      });
+  line.finish();
+  report(result, config, options.out);
+  if (result.interrupted) {
+    fmt::print(
+        stderr,
+        "striker-train: interrupted after {} of {} episodes; everything so far is kept, add --resume to "
+        "go on\n",
+        result.episodes, config.run.episodes);
+    return host::exit_interrupted;
+  }
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace striker::training
+
+int main(int argc, char** argv) {
+  using namespace striker::training;
+  CLI::App app(
+      "Trains a Q network on the kick task (servo plant) and writes DIR/model.safetensors, "
+      "learning_curve.csv,\n"
+      "speed.csv and, where the configuration asks for greedy evaluations, best.safetensors and "
+      "evaluations.csv.\n"
+      "The same configuration and seed give the same bytes on one type of machine (but for speed.csv).\n"
+      "Ctrl-C ends it after the running episode and keeps everything (exit code 130); --resume goes on.",
+      "striker-train");
+  Options options;
+  app.add_option("--config", options.config, "TOML file, see training/configs/paper.toml for every key")
+      ->required();
+  app.add_option("--set", options.changes, "changes a key of it: --set learner.gamma=0.99")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--seed", options.seed, "of the weights, the episodes, the exploration and the sampling")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--out", options.out, "directory for the results; made if missing")->required();
+  app.add_flag("--resume", options.resume, "go on with the unfinished training in that directory");
+  return host::run(app, argc, argv, [&options] { return train_and_save(options); });
+}

@@ -1,0 +1,33 @@
+// A training run at the end of an episode, as a file: to resume from, to the same bits.
+//
+// It is safetensors like a model: the networks, Adam's moments and the replay buffer as tensors; counters,
+// generators and the rest of the run's state as text. Numbers in text are hexadecimal floats, exact.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "training/learner/dqn.hpp"
+
+namespace striker::training {
+
+// What a run knows beside its learner.
+struct RunState {
+  int episodes = 0;                    // played
+  std::vector<double> recent_rewards;  // of the last 250 episodes or all, the oldest first
+  // The best network of the greedy evaluations, without its dueling head; none before the first evaluation.
+  int best_episodes = 0;
+  double best_mean = 0.0;
+  Eigen::VectorXf best_values;
+};
+
+void save_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
+                     const Learner& learner, const RunState& run);
+
+// Throws std::runtime_error, naming the file, for one that is damaged, or of another configuration or seed.
+RunState load_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
+                         Learner& learner);
+
+}  // namespace striker::training
