@@ -4,40 +4,41 @@
 #include <type_traits>
 #include <utility>
 
-#include "firmware/core/network.hpp"
-#include "firmware/core/policy_proof.hpp"
-#include STRIKER_POLICY_HEADER
+#include "firmware/policy/built_in.hpp"
+#include "firmware/policy/network.hpp"
+#include "firmware/policy/proof.hpp"
 
 namespace striker::core {
 
 namespace {
 
-constexpr const auto& policy = policy::trained;
-using Trained = std::remove_cvref_t<decltype(policy)>;
+using policy::built_in;
+using Trained = std::remove_cvref_t<decltype(built_in)>;
 
-static_assert(scales_are_valid(policy),
+static_assert(policy::scales_are_valid(built_in),
               "STRIKER POLICY: a shift, a multiplier or the period is out of range");
-static_assert(sums_fit(policy), "STRIKER POLICY: a 32-bit sum could overflow: export the model again");
-static_assert(identity_of(policy) == policy.identity,
+static_assert(policy::sums_fit(built_in),
+              "STRIKER POLICY: a 32-bit sum could overflow: export the model again");
+static_assert(policy::identity_of(built_in) == built_in.identity,
               "STRIKER POLICY: the header was altered after its export: export the model again");
-static_assert(policy.decision_period_ms == decision_period_ticks,
+static_assert(built_in.decision_period_ms == decision_period_ticks,
               "STRIKER POLICY: trained at another decision period than this controller's 50 ms");
-static_assert(inputs_are_known(policy),
+static_assert(policy::inputs_are_known(built_in),
               "STRIKER POLICY: an input that this controller does not compute, or too many of them");
 static_assert(Trained::goldens >= 1, "STRIKER POLICY: no golden vector to test the boot with");
 static_assert(std::is_trivially_copyable_v<Controller>);
 
 // What is needed at run time, without the header's weights beside it: those are in the kernel's order
 // already.
-constexpr auto state_inputs = policy.state;
-constexpr auto golden_vectors = policy.golden_vectors;
-constexpr auto set_points = policy.set_points;
-constexpr bool mirrored = policy.mirrored;
+constexpr auto state_inputs = built_in.state;
+constexpr auto golden_vectors = built_in.golden_vectors;
+constexpr auto set_points = built_in.set_points;
+constexpr bool mirrored = built_in.mirrored;
 
 constexpr std::uint32_t low_31_bits = 0x7FFFFFFF;
 
 // The best Q among the actions other than the chosen one, still in the output layer's scale.
-std::int32_t runner_up(const QValues<Trained::actions>& q) {
+std::int32_t runner_up(const policy::QValues<Trained::actions>& q) {
   std::int32_t best = q.sums[q.action == 0 ? 1 : 0];
   for (std::size_t k = 0; k < Trained::actions; ++k) {
     best = k == q.action ? best : std::max(best, q.sums[k]);
@@ -59,7 +60,7 @@ bool take_due(Freshness& sent, std::uint32_t tick, std::uint32_t period_ticks) {
 
 }  // namespace
 
-std::span<const StateInput> policy_inputs() {
+std::span<const policy::StateInput> policy_inputs() {
   return state_inputs;
 }
 
@@ -113,7 +114,7 @@ void Controller::run_self_test() {
     return;
   }
   const auto& golden = golden_vectors[self_tested_];
-  const auto q = infer<policy>(golden.raw);
+  const auto q = policy::infer<built_in>(golden.raw);
   if (q.sums != golden.sums || q.action != golden.action) {
     self_test_ = SelfTest::failed;
   } else if (++self_tested_ == Trained::goldens) {
@@ -169,16 +170,17 @@ void Controller::remember(const RelativeState& state) {
 
 void Controller::decide(bool extrapolated, Outputs& outputs) {
   RelativeState state = relative_state(estimator_.at(tick_));
-  const auto made = static_cast<std::int32_t>(std::min<std::uint32_t>(decision_.number, decisions_a_kick));
-  state.decisions_left = decisions_a_kick - made;
+  const auto made =
+      static_cast<std::int32_t>(std::min<std::uint32_t>(decision_.number, policy::decisions_a_kick));
+  state.decisions_left = policy::decisions_a_kick - made;
   remember(state);
   const bool mirror = mirrored && state.ball_um.y < 0;
   std::array<std::int32_t, Trained::inputs> raw{};
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const std::int32_t value = element_of(history_[state_inputs[i].decisions_ago], state_inputs[i].element);
-    raw[i] = mirror && changes_sign(state_inputs[i].element) ? -value : value;
+    raw[i] = mirror && policy::changes_sign(state_inputs[i].element) ? -value : value;
   }
-  const auto q = infer<policy>(raw);
+  const auto q = policy::infer<built_in>(raw);
   decision_.number += 1;
   decision_.action = q.action;
   decision_.extrapolated = extrapolated;
@@ -191,8 +193,8 @@ void Controller::decide(bool extrapolated, Outputs& outputs) {
   outputs.add(can::pack(can::Decision{.number = static_cast<std::int32_t>((decision_.number - 1) & 0xFFFFU),
                                       .action = q.action,
                                       .extrapolated = static_cast<std::int32_t>(extrapolated),
-                                      .best_q_256th = q.sums[q.action] >> policy.output.shift,
-                                      .next_q_256th = runner_up(q) >> policy.output.shift}));
+                                      .best_q_256th = q.sums[q.action] >> built_in.output.shift,
+                                      .next_q_256th = runner_up(q) >> built_in.output.shift}));
 }
 
 DriveFacts Controller::drive_facts() const {
@@ -241,9 +243,9 @@ void Controller::report(const can::Timing& timing, Outputs& outputs) {
   }
   if (take_due(sent_.version, tick_, period<can::Version>)) {
     outputs.add(can::pack(can::Version{.protocol = can::protocol_version,
-                                       .decision_period_ms = policy.decision_period_ms,
-                                       .policy_low = static_cast<std::int32_t>(policy.identity & 0xFFFFU),
-                                       .policy_high = static_cast<std::int32_t>(policy.identity >> 16U)}));
+                                       .decision_period_ms = built_in.decision_period_ms,
+                                       .policy_low = static_cast<std::int32_t>(built_in.identity & 0xFFFFU),
+                                       .policy_high = static_cast<std::int32_t>(built_in.identity >> 16U)}));
   }
 }
 

@@ -55,11 +55,12 @@ struct DecisionRecord {
   std::uint32_t number = 0;  // decisions since arming
   std::uint8_t action = 0;
   bool extrapolated = false;
-  std::array<std::int32_t, greatest_inputs> inputs{};  // of the network; as many as `policy_inputs` names
+  std::array<std::int32_t, policy::greatest_inputs>
+      inputs{};  // of the network; as many as `policy_inputs` names
 };
 
 // What the built-in policy reads, in the order of its inputs.
-[[nodiscard]] std::span<const StateInput> policy_inputs();
+[[nodiscard]] std::span<const policy::StateInput> policy_inputs();
 
 class Controller {
  public:
@@ -117,7 +118,7 @@ class Controller {
   bool awaits_first_pair_ = true;
   std::uint32_t decision_tick_ = 0;
   DecisionRecord decision_;
-  std::array<RelativeState, greatest_look_back + 1> history_{};  // of the decisions, the newest first
+  std::array<RelativeState, policy::greatest_look_back + 1> history_{};  // of the decisions, the newest first
   std::int32_t left_set_point_mm_s_ = 0;
   std::int32_t right_set_point_mm_s_ = 0;
   WheelLoop left_loop_;

@@ -34,21 +34,21 @@ RelativeState relative_state(const Estimate& estimate) {
   return state;
 }
 
-std::int32_t element_of(const RelativeState& state, StateElement element) {
+std::int32_t element_of(const RelativeState& state, policy::StateElement element) {
   switch (element) {
-    case StateElement::ball_x:
+    case policy::StateElement::ball_x:
       return state.ball_um.x;
-    case StateElement::ball_y:
+    case policy::StateElement::ball_y:
       return state.ball_um.y;
-    case StateElement::robot_speed:
+    case policy::StateElement::robot_speed:
       return state.robot_speed_mm_s;
-    case StateElement::ball_vx:
+    case policy::StateElement::ball_vx:
       return state.ball_velocity_mm_s.x;
-    case StateElement::ball_vy:
+    case policy::StateElement::ball_vy:
       return state.ball_velocity_mm_s.y;
-    case StateElement::ball_angle:
+    case policy::StateElement::ball_angle:
       return state.ball_angle;
-    case StateElement::decisions_left:
+    case policy::StateElement::decisions_left:
       return state.decisions_left;
   }
   return 0;

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "firmware/core/estimator.hpp"
-#include "firmware/core/policy.hpp"
+#include "firmware/policy/policy.hpp"
 
 namespace striker::core {
 
@@ -25,6 +25,6 @@ struct RelativeState {
 
 [[nodiscard]] RelativeState relative_state(const Estimate& estimate);
 
-[[nodiscard]] std::int32_t element_of(const RelativeState& state, StateElement element);
+[[nodiscard]] std::int32_t element_of(const RelativeState& state, policy::StateElement element);
 
 }  // namespace striker::core

@@ -8,8 +8,11 @@ policy=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+# The name that an exported header gives its policy.
+policy_name() { sed -nE 's/^inline constexpr Policy<[^>]*> ([a-z_0-9]+) = .*/\1/p' "$1"; }
+
 compile() {
-  g++ -std=c++20 -fsyntax-only -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$1\"" \
+  g++ -std=c++20 -fsyntax-only -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$1\"" "-DSTRIKER_POLICY_NAME=$(policy_name "$1")" \
     "$source_dir/firmware/core/controller.cpp" 2>&1
 }
 

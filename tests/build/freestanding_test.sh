@@ -9,8 +9,11 @@ policy=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+# The name that an exported header gives its policy.
+policy_name() { sed -nE 's/^inline constexpr Policy<[^>]*> ([a-z_0-9]+) = .*/\1/p' "$1"; }
+
 flags=(-std=c++20 -O2 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -Wall -Wextra -Werror
-  -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$policy\"")
+  -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$policy\"" "-DSTRIKER_POLICY_NAME=$(policy_name "$policy")")
 
 # malloc and its family, operator new and delete, exceptions, soft-float helpers, libm.
 forbidden='^(malloc|calloc|realloc|free|_Zn[wa].*|_Zd[la].*|__cxa_.*|_Unwind_.*|__gxx_personality.*'

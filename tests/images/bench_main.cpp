@@ -11,22 +11,23 @@
 #include <numeric>
 #include <type_traits>
 
-#include "firmware/core/kernel/portable.hpp"
-#include "firmware/core/network.hpp"
+#include "firmware/policy/built_in.hpp"
+#include "firmware/policy/kernel/int16/portable.hpp"
+#include "firmware/policy/network.hpp"
 #include "firmware/ports/bare_metal/memory.hpp"
 #include "tests/images/console.hpp"
 #include "tests/images/instruction_counter.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/images/step_search.hpp"
 #include "tests/images/synthetic_policy.hpp"
-#include STRIKER_POLICY_HEADER
 
 namespace {
 
 using namespace striker;
 using namespace striker::core;
+using namespace striker::policy;
 
-constexpr const auto& trained = policy::trained;
+constexpr const auto& trained = policy::built_in;
 
 template <const auto& policy>
 using ShapeOf = std::remove_cvref_t<decltype(policy)>;

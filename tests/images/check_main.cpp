@@ -9,20 +9,21 @@
 #include <type_traits>
 
 #include "firmware/core/controller.hpp"
-#include "firmware/core/network.hpp"
-#include "firmware/core/policy_proof.hpp"
 #include "firmware/core/relative_state.hpp"
+#include "firmware/policy/built_in.hpp"
+#include "firmware/policy/network.hpp"
+#include "firmware/policy/proof.hpp"
 #include "tests/images/console.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/images/synthetic_policy.hpp"
-#include STRIKER_POLICY_HEADER
 
 namespace {
 
 using namespace striker;
 using namespace striker::core;
+using namespace striker::policy;
 
-constexpr const auto& trained = policy::trained;
+constexpr const auto& trained = policy::built_in;
 
 int failures = 0;
 

@@ -11,7 +11,7 @@ namespace striker::images {
 
 namespace {
 
-using core::SmallRandom;
+using policy::SmallRandom;
 
 // A controller and everything that sends to it.
 struct Scene {

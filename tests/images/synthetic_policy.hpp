@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "firmware/core/policy.hpp"
+#include "firmware/policy/policy.hpp"
 
-namespace striker::core {
+namespace striker::policy {
 
 class SmallRandom {
  public:
@@ -95,4 +95,4 @@ inline constexpr auto synthetic_bytes_rest = synthetic_policy<9, 38, 27, 6, std:
 inline constexpr auto synthetic_bytes_paper = synthetic_policy<6, 64, 64, 3, std::int8_t>(10);
 inline constexpr auto synthetic_bytes_wide = synthetic_policy<12, 128, 128, 5, std::int8_t>(11);
 
-}  // namespace striker::core
+}  // namespace striker::policy

@@ -40,7 +40,7 @@ def inference_limit(cpu, macs, policy):
     with open(os.path.join(HERE, "limits.json"), encoding="utf-8") as text:
         limits = json.load(text)[cpu]
     with open(policy, encoding="utf-8") as text:
-        int8 = "std::int8_t> trained" in text.read()
+        int8 = ", std::int8_t> " in text.read()
     inference = limits["inference_int8" if int8 else "inference"]
     if macs != MULTIPLY_ACCUMULATES:
         inference = inference * macs * 5 // (MULTIPLY_ACCUMULATES * 4)

@@ -11,9 +11,9 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-POLICY = "firmware/policy/kick_policy.hpp"
+POLICY = "firmware/policy/exported/kick.hpp"
 CONTROLLER = "firmware/core/controller.cpp"
-SCALAR = "firmware/core/kernel/scalar.hpp"
+SCALAR = "firmware/policy/kernel/scaling.hpp"
 
 BRANCHING_RELU = """constexpr std::int32_t saturate_relu(std::int32_t value) {
   if (value < 0) {
@@ -32,13 +32,13 @@ def altered_headers(copy, _):
 
 
 def compiles(copy, _):
-    return shell("g++", "-std=c++20", "-fsyntax-only", f"-I{copy}", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"',
+    return shell("g++", "-std=c++20", "-fsyntax-only", f"-I{copy}", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"', "-DSTRIKER_POLICY_NAME=kick",
                  f"{copy}/{CONTROLLER}")
 
 
 def host_instructions(copy, _):
     probe = f"{copy}/probe"
-    built = shell("g++", "-std=c++20", "-O2", f"-I{copy}", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"',
+    built = shell("g++", "-std=c++20", "-O2", f"-I{copy}", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"', "-DSTRIKER_POLICY_NAME=kick",
                   f"{copy}/tests/timing/kernel_probe.cpp", "-o", probe)
     return built if built.returncode != 0 else shell(f"{copy}/tests/timing/kernel_instructions_test.sh", probe)
 
@@ -57,17 +57,17 @@ MUTATIONS = (
      altered_headers),
     ("the identity is not asserted", CONTROLLER, r"static_assert\(identity_of\(policy\) == policy.identity",
      "static_assert(true", altered_headers),
-    ("a golden vector is gone", POLICY, r"(, )16(> trained)([\s\S]*)\n +\{\.raw = [\s\S]*?\},\n(    \}\},\n\};)",
+    ("a golden vector is gone", POLICY, r"(, )16(> kick)([\s\S]*)\n +\{\.raw = [\s\S]*?\},\n(    \}\},\n\};)",
      r"\g<1>15\2\3\n\4", compiles),
     ("argmax branches", SCALAR, r"const std::int32_t greater = less_mask\(best, sums\[k\]\);",
      'const std::int32_t greater = less_mask(best, sums[k]);\n    if (greater != 0) {\n      asm volatile("nop");\n    }',
      host_instructions),
     ("ReLU branches on the Cortex-M0+", SCALAR, r"constexpr std::int32_t saturate_relu\([\s\S]*?\n\}", BRANCHING_RELU,
      image("cortex-m0plus")),
-    ("two weights change places on the Cortex-M4", "firmware/core/kernel/dsp.hpp",
+    ("two weights change places on the Cortex-M4", "firmware/policy/kernel/int16/armv7em.hpp",
      r"half_words\(weight_or_zero\(layer, row, 2 \* p \+ 1\), layer\.weights\[row\]\[2 \* p\]\)",
      "half_words(layer.weights[row][2 * p], weight_or_zero(layer, row, 2 * p + 1))", image("cortex-m4")),
-    ("two rows of int8 weights change places on the Cortex-M4", "firmware/core/kernel/dsp_bytes.hpp",
+    ("two rows of int8 weights change places on the Cortex-M4", "firmware/policy/kernel/int8/armv7em.hpp",
      r"byte\(0, 0\) \| byte\(1, 0\)", "byte(1, 0) | byte(0, 0)", image("cortex-m4")),
 )
 

@@ -6,15 +6,14 @@
 #include <random>
 #include <string_view>
 
-#include "firmware/core/network.hpp"
-#include STRIKER_POLICY_HEADER
+#include "firmware/policy/built_in.hpp"
+#include "firmware/policy/network.hpp"
 
 namespace {
 
-using namespace striker::core;
+using namespace striker::policy;
 
-constexpr const auto& policy = striker::policy::trained;
-using Raw = std::array<std::int32_t, policy.inputs>;
+using Raw = std::array<std::int32_t, built_in.inputs>;
 
 std::int32_t draw(std::string_view set, std::mt19937& random) {
   using Limits = std::numeric_limits<std::int32_t>;
@@ -31,14 +30,14 @@ std::int32_t draw(std::string_view set, std::mt19937& random) {
 
 // Counted by its name.
 extern "C" [[gnu::noinline]] int counted_inference(const Raw& raw) {
-  return infer<policy>(raw).action;
+  return infer<built_in>(raw).action;
 }
 
 int main(int argc, char** argv) {
   const std::string_view set = argc > 1 ? argv[1] : "zero";
   if (set == "macs") {
-    std::printf("%zu\n", policy.inputs * policy.hidden1 + policy.hidden1 * policy.hidden2 +
-                             policy.hidden2 * policy.actions);
+    std::printf("%zu\n", built_in.inputs * built_in.hidden1 + built_in.hidden1 * built_in.hidden2 +
+                             built_in.hidden2 * built_in.actions);
     return 0;
   }
   std::mt19937 random(1);

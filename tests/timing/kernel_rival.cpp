@@ -10,14 +10,14 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware/core/network.hpp"
-#include STRIKER_POLICY_HEADER
+#include "firmware/policy/built_in.hpp"
+#include "firmware/policy/network.hpp"
 
 namespace {
 
-using namespace striker::core;
+using namespace striker::policy;
 
-constexpr const auto& trained = striker::policy::trained;
+constexpr const auto& trained = striker::policy::built_in;
 using Shape = std::remove_cvref_t<decltype(trained)>;
 using Raw = std::array<std::int32_t, Shape::inputs>;
 

@@ -36,9 +36,9 @@ EnvConfig another_task() {
 // Does a program with this header and these static assertions compile?
 bool compiles(const std::string& header, const std::string& assertions, const TemporaryDirectory& directory) {
   write_to(directory / "policy.hpp", header);
-  write_to(
-      directory / "proof.cpp",
-      "#include \"core/policy_proof.hpp\"\n#include \"policy.hpp\"\nusing namespace striker;\n" + assertions);
+  write_to(directory / "proof.cpp",
+           "#include \"firmware/policy/proof.hpp\"\n#include \"policy.hpp\"\nusing namespace striker;\n" +
+               assertions);
   const std::string command = fmt::format(
       "{} -std=c++20 -fsyntax-only -Wall -Wextra -Wconversion -Wshadow -Werror -I{} -I{} {} 2> {}",
       STRIKER_COMPILER, STRIKER_SOURCES, directory.string(), (directory / "proof.cpp").string(),
@@ -50,18 +50,18 @@ TEST(Export, TheHeaderProvesItself) {
   const TemporaryDirectory directory;
   const Model model = some_model();
   const Export exported = export_model(model, {});
-  const std::string header = header_of(exported, model);
+  const std::string header = header_of(exported, model, "trained");
   EXPECT_TRUE(
       compiles(header,
-               "static_assert(core::sums_fit(policy::trained));\n"
-               "static_assert(core::scales_are_valid(policy::trained));\n"
-               "static_assert(core::identity_of(policy::trained) == policy::trained.identity);\n"
+               "static_assert(policy::sums_fit(policy::trained));\n"
+               "static_assert(policy::scales_are_valid(policy::trained));\n"
+               "static_assert(policy::identity_of(policy::trained) == policy::trained.identity);\n"
                "static_assert(policy::trained.goldens == 16 && policy::trained.decision_period_ms == 50);\n"
                "static_assert(policy::trained.set_points[2].right_mm_s == -2550);\n",
                directory))
       << content_of(directory / "errors");
   EXPECT_FALSE(compiles(replaced(header, ".decision_period_ms = 50", ".decision_period_ms = 51"),
-                        "static_assert(core::identity_of(policy::trained) == policy::trained.identity);\n",
+                        "static_assert(policy::identity_of(policy::trained) == policy::trained.identity);\n",
                         directory));
 }
 
@@ -69,12 +69,12 @@ TEST(Export, TheHeaderOfInt8WeightsProvesItself) {
   const TemporaryDirectory directory;
   const Model model = some_model();
   const Export exported = export_model(model, {}, WeightType::int8);
-  const std::string header = header_of(exported, model);
+  const std::string header = header_of(exported, model, "trained");
   const std::string identity =
-      "static_assert(core::identity_of(policy::trained) == policy::trained.identity);\n";
+      "static_assert(policy::identity_of(policy::trained) == policy::trained.identity);\n";
   EXPECT_TRUE(compiles(header,
-                       identity + "static_assert(core::sums_fit(policy::trained));\n"
-                                  "static_assert(core::scales_are_valid(policy::trained));\n"
+                       identity + "static_assert(policy::sums_fit(policy::trained));\n"
+                                  "static_assert(policy::scales_are_valid(policy::trained));\n"
                                   "static_assert(sizeof(policy::trained.layer2.weights) == 64 * 64);\n",
                        directory))
       << content_of(directory / "errors");
@@ -82,13 +82,13 @@ TEST(Export, TheHeaderOfInt8WeightsProvesItself) {
   const std::string first = ".layer2 = {\n        .weights = {{\n            {{";
   EXPECT_FALSE(compiles(replaced(header, first + std::to_string(weight), first + std::to_string(weight ^ 1)),
                         identity, directory));
-  EXPECT_NE(header, header_of(export_model(model, {}), model));
+  EXPECT_NE(header, header_of(export_model(model, {}), model, "trained"));
 }
 
 TEST(Export, IsAFunctionOfTheModel) {
   const Model model = some_model();
-  const std::string header = header_of(export_model(model, {}), model);
-  EXPECT_EQ(header_of(export_model(model, {}), model), header);
+  const std::string header = header_of(export_model(model, {}), model, "trained");
+  EXPECT_EQ(header_of(export_model(model, {}), model, "trained"), header);
   std::istringstream lines(header);
   for (std::string line; std::getline(lines, line);) {
     EXPECT_LE(line.size(), 110U) << line;
@@ -144,17 +144,17 @@ TEST(Export, TheReportSaysHowFarEightBitsAgree) {
 TEST(Export, AnotherTasksHeaderProvesItself) {
   const TemporaryDirectory directory;
   const Model model = some_model({.inputs = 12, .hidden1 = 32, .hidden2 = 16, .actions = 5});
-  const std::string header = header_of(export_model(model, another_task()), model);
+  const std::string header = header_of(export_model(model, another_task()), model, "trained");
   EXPECT_TRUE(
       compiles(header,
-               "static_assert(core::sums_fit(policy::trained));\n"
-               "static_assert(core::scales_are_valid(policy::trained));\n"
-               "static_assert(core::inputs_are_known(policy::trained));\n"
-               "static_assert(core::identity_of(policy::trained) == policy::trained.identity);\n"
+               "static_assert(policy::sums_fit(policy::trained));\n"
+               "static_assert(policy::scales_are_valid(policy::trained));\n"
+               "static_assert(policy::inputs_are_known(policy::trained));\n"
+               "static_assert(policy::identity_of(policy::trained) == policy::trained.identity);\n"
                "static_assert(policy::trained.inputs == 12 && policy::trained.hidden1 == 32);\n"
                "static_assert(policy::trained.hidden2 == 16 && policy::trained.actions == 5);\n"
                "static_assert(policy::trained.state[6].decisions_ago == 1 && policy::trained.mirrored);\n"
-               "static_assert(policy::trained.state[11].element == core::StateElement::decisions_left);\n"
+               "static_assert(policy::trained.state[11].element == policy::StateElement::decisions_left);\n"
                "static_assert(policy::trained.set_points[3].left_mm_s == 2000);\n"
                "static_assert(policy::trained.set_points[3].right_mm_s == 1000);\n",
                directory))

@@ -25,7 +25,7 @@ std::vector<RawState> some_states(unsigned seed, int count) {
 
 class Quantise : public testing::TestWithParam<std::tuple<float, WeightType>> {};
 
-// From tiny to large weights: what is proved, and what firmware/core/policy.hpp allows.
+// From tiny to large weights: what is proved, and what firmware/policy/policy.hpp allows.
 TEST_P(Quantise, FitsTheFirmwaresArithmetic) {
   const auto [factor, weights] = GetParam();
   const Parameters parameters = scaled(some_parameters(1), factor);

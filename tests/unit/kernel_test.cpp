@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "firmware/core/kernel/portable.hpp"
-#include "firmware/core/network.hpp"
-#include "firmware/core/policy_proof.hpp"
+#include "firmware/policy/built_in.hpp"
+#include "firmware/policy/kernel/int16/portable.hpp"
+#include "firmware/policy/network.hpp"
+#include "firmware/policy/proof.hpp"
 #include "tests/images/synthetic_policy.hpp"
-#include STRIKER_POLICY_HEADER
 
-namespace striker::core {
+namespace striker::policy {
 namespace {
 
 template <const auto& policy>
@@ -34,7 +34,7 @@ TEST(Kernel, GivesThePortableBitsForEveryShape) {
     GTEST_SKIP() << "this processor has no AVX2";
   }
 #endif
-  expect_same_bits<policy::trained>();
+  expect_same_bits<policy::built_in>();
   expect_same_bits<synthetic_smallest>();
   expect_same_bits<synthetic_odd>();
   expect_same_bits<synthetic_rest>();
@@ -99,4 +99,4 @@ TEST(Kernel, ScalesInputsAsSpecifiedAtEveryShift) {
 }
 
 }  // namespace
-}  // namespace striker::core
+}  // namespace striker::policy

@@ -1,6 +1,6 @@
 // The kernel against a plain 64-bit reference written from the specification in policy.hpp, on the built-in
 // policy: random, saturating and adversarial inputs, and the header's golden vectors.
-#include "firmware/core/network.hpp"
+#include "firmware/policy/network.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,14 +9,13 @@
 #include <random>
 #include <vector>
 
-#include "firmware/core/policy_proof.hpp"
-#include STRIKER_POLICY_HEADER
+#include "firmware/policy/built_in.hpp"
+#include "firmware/policy/proof.hpp"
 
-namespace striker::core {
+namespace striker::policy {
 namespace {
 
-constexpr const auto& policy = policy::trained;
-using Raw = std::array<std::int32_t, policy.inputs>;
+using Raw = std::array<std::int32_t, built_in.inputs>;
 
 template <std::size_t Inputs, std::size_t Outputs, class Weight>
 std::vector<std::int64_t> sums_of(const Layer<Inputs, Outputs, Weight>& layer,
@@ -43,19 +42,19 @@ std::vector<std::int64_t> activate(std::vector<std::int64_t> sums, std::uint8_t 
 std::vector<std::int64_t> reference(const Raw& raw) {
   std::vector<std::int64_t> in;
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    const InputScale& scale = policy.input_scales[i];
+    const InputScale& scale = built_in.input_scales[i];
     const auto half = std::int64_t{1} << (scale.shift - 1);
     in.push_back(std::clamp<std::int64_t>((std::int64_t{raw[i]} * scale.multiplier + half) >> scale.shift,
                                           -32767, 32767));
   }
-  const auto hidden1 = activate(sums_of(policy.layer1, in), policy.layer1.shift);
-  const auto hidden2 = activate(sums_of(policy.layer2, hidden1), policy.layer2.shift);
-  return sums_of(policy.output, hidden2);
+  const auto hidden1 = activate(sums_of(built_in.layer1, in), built_in.layer1.shift);
+  const auto hidden2 = activate(sums_of(built_in.layer2, hidden1), built_in.layer2.shift);
+  return sums_of(built_in.output, hidden2);
 }
 
 void expect_agreement(const Raw& raw) {
   const auto wanted = reference(raw);
-  const auto got = infer<policy>(raw);
+  const auto got = infer<built_in>(raw);
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     ASSERT_EQ(got.sums[k], wanted[k]);
   }
@@ -76,7 +75,7 @@ TEST(Network, AgreesWithTheReferenceOnRandomInputs) {
 
 // Every sign pattern at the ends of the input range drives the first layer as far as it goes.
 TEST(Network, AgreesWithTheReferenceAtTheEndsOfTheRange) {
-  for (unsigned pattern = 0; pattern < (1U << policy.inputs); ++pattern) {
+  for (unsigned pattern = 0; pattern < (1U << built_in.inputs); ++pattern) {
     Raw raw{};
     for (std::size_t i = 0; i < raw.size(); ++i) {
       raw[i] = ((pattern >> i) & 1U) != 0 ? std::numeric_limits<std::int32_t>::max()
@@ -87,8 +86,8 @@ TEST(Network, AgreesWithTheReferenceAtTheEndsOfTheRange) {
 }
 
 TEST(Network, AnswersItsGoldenVectors) {
-  for (const auto& golden : policy.golden_vectors) {
-    const auto q = infer<policy>(golden.raw);
+  for (const auto& golden : built_in.golden_vectors) {
+    const auto q = infer<built_in>(golden.raw);
     EXPECT_EQ(q.sums, golden.sums);
     EXPECT_EQ(q.action, golden.action);
   }
@@ -108,25 +107,25 @@ TEST(Network, OfEqualActionsTheLowestIsChosen) {
 
 // No int8 weights can: there a bias has to.
 TEST(Proof, AWeightOrBiasThatCouldOverflowIsRefused) {
-  auto heavy = policy;
+  auto heavy = built_in;
   EXPECT_TRUE(sums_fit(heavy));
   using Weight = decltype(heavy)::Weight;
   heavy.layer2.weights[0].fill(std::numeric_limits<Weight>::max());
   EXPECT_EQ(sums_fit(heavy), sizeof(Weight) == 1);
-  heavy = policy;
+  heavy = built_in;
   heavy.layer2.biases[0] = std::numeric_limits<std::int32_t>::max();
   EXPECT_FALSE(sums_fit(heavy));
 }
 
 TEST(Proof, EveryAlterationChangesTheIdentity) {
   const auto altered = [](auto change) {
-    auto copy = policy;
+    auto copy = built_in;
     change(copy);
-    return identity_of(copy) != policy.identity;
+    return identity_of(copy) != built_in.identity;
   };
-  EXPECT_EQ(identity_of(policy), policy.identity);
-  for (std::size_t j = 0; j < policy.hidden2; ++j) {
-    EXPECT_TRUE(altered([&](auto& p) { p.layer2.weights[j][j % policy.hidden1] ^= 1; }));
+  EXPECT_EQ(identity_of(built_in), built_in.identity);
+  for (std::size_t j = 0; j < built_in.hidden2; ++j) {
+    EXPECT_TRUE(altered([&](auto& p) { p.layer2.weights[j][j % built_in.hidden1] ^= 1; }));
   }
   EXPECT_TRUE(altered([](auto& p) { p.layer1.biases[0] += 1; }));
   EXPECT_TRUE(altered([](auto& p) { p.layer2.shift = static_cast<std::uint8_t>(p.layer2.shift + 1); }));
@@ -138,4 +137,4 @@ TEST(Proof, EveryAlterationChangesTheIdentity) {
 }
 
 }  // namespace
-}  // namespace striker::core
+}  // namespace striker::policy

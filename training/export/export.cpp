@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -150,10 +152,24 @@ Export export_model(const Model& model, const EnvConfig& task, WeightType weight
   return exported;
 }
 
-std::string header_of(const Export& exported, const Model& model) {
+std::string policy_name_of(const std::filesystem::path& file) {
+  const std::string name = file.stem().string();
+  const bool begins = !name.empty() && (std::islower(static_cast<unsigned char>(name.front())) != 0);
+  const bool goes_on = std::all_of(name.begin(), name.end(), [](unsigned char letter) {
+    return std::islower(letter) != 0 || std::isdigit(letter) != 0 || letter == '_';
+  });
+  if (!begins || !goes_on) {
+    throw std::runtime_error(
+        fmt::format("{}: '{}' cannot be the policy's name in C++: use a-z, 0-9 and _, or give one as --name",
+                    file.string(), name));
+  }
+  return name;
+}
+
+std::string header_of(const Export& exported, const Model& model, const std::string& name) {
   std::vector<std::string> notes{
       "The kick policy: an integer Q network, written by striker-export. Do not edit: an altered number does",
-      "not compile. Format and arithmetic: firmware/core/policy.hpp.",
+      "not compile. Format and arithmetic: firmware/policy/policy.hpp.",
       "",
       fmt::format(
           "Trained by striker-train, configuration \"{}\", seed {}; the float model's identity is {}.",
@@ -169,7 +185,7 @@ std::string header_of(const Export& exported, const Model& model) {
         "{:.2f} bits of headroom.",
         l + 1, layers[l].weight_exponent, layers[l].activation_exponent, layers[l].headroom_bits));
   }
-  return header_text(exported.policy, notes);
+  return header_text(exported.policy, name, notes);
 }
 
 std::string report_of(const Export& exported, const Model& model) {

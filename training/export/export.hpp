@@ -1,6 +1,7 @@
 // From a trained model to everything that striker-export writes.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,12 @@ struct Export {
 [[nodiscard]] Export export_model(const Model& model, const EnvConfig& task,
                                   WeightType weights = WeightType::int16);
 
-// The exported header: the policy below a comment that says what it is.
-[[nodiscard]] std::string header_of(const Export& exported, const Model& model);
+// The exported header: striker::policy::NAME below a comment that says what it is.
+[[nodiscard]] std::string header_of(const Export& exported, const Model& model, const std::string& name);
+
+// The name of a policy whose header is written to `file`: its name without extension. Throws
+// std::runtime_error if that is no lower-case C++ identifier.
+[[nodiscard]] std::string policy_name_of(const std::filesystem::path& file);
 
 // The same figures as JSON.
 [[nodiscard]] std::string report_of(const Export& exported, const Model& model);

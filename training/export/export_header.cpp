@@ -64,7 +64,7 @@ std::string inputs_text(const ExportedPolicy& policy) {
   for (std::size_t i = 0; i < policy.inputs.size(); ++i) {
     const auto [element, ago] = policy.inputs[i];
     const InputScale& scale = policy.network.input_scales[i];
-    elements += fmt::format("        {{.element = core::StateElement::{}, .decisions_ago = {}}},\n",
+    elements += fmt::format("        {{.element = StateElement::{}, .decisions_ago = {}}},\n",
                             facts_of(element).name, ago);
     scales += fmt::format("        {{.multiplier = {}, .shift = {}}},\n", scale.multiplier, scale.shift);
   }
@@ -125,18 +125,19 @@ std::uint32_t identity_of(const ExportedPolicy& policy) {
   return hash.value();
 }
 
-std::string header_text(const ExportedPolicy& policy, const std::vector<std::string>& notes) {
+std::string header_text(const ExportedPolicy& policy, const std::string& name,
+                        const std::vector<std::string>& notes) {
   const auto& layers = policy.network.layers;
   std::string text;
   for (const std::string& note : notes) {
     text += note.empty() ? "//\n" : fmt::format("// {}\n", note);
   }
-  text += "#pragma once\n\n#include \"firmware/core/policy.hpp\"\n\nnamespace striker::policy {\n\n";
+  text += "#pragma once\n\n#include \"firmware/policy/policy.hpp\"\n\nnamespace striker::policy {\n\n";
   text += "// clang-format off\n";
-  text += fmt::format("inline constexpr core::Policy<{}, {}, {}, {}, {}{}> trained = {{\n",
+  text += fmt::format("inline constexpr Policy<{}, {}, {}, {}, {}{}> {} = {{\n",
                       policy.network.input_scales.size(), layers.at(0).outputs(), layers.at(1).outputs(),
                       layers.at(2).outputs(), policy.golden_vectors.size(),
-                      policy.network.weights == WeightType::int8 ? ", std::int8_t" : "");
+                      policy.network.weights == WeightType::int8 ? ", std::int8_t" : "", name);
   text += fmt::format("    .identity = 0x{:08X}U,\n    .configuration_hash = 0x{:08X}U,\n",
                       identity_of(policy), policy.configuration_hash);
   text += fmt::format("    .decision_period_ms = {},\n", policy.decision_period_ms);

@@ -1,4 +1,4 @@
-// Writes the weight header that firmware/core/policy.hpp describes: the only thing that training hands to
+// Writes the weight header that firmware/policy/policy.hpp describes: the only thing that training hands to
 // the firmware.
 #pragma once
 
@@ -31,11 +31,12 @@ struct ExportedPolicy {
   std::vector<GoldenVector> golden_vectors;
 };
 
-// The identity as `identity_of` in firmware/core/policy_proof.hpp specifies it.
+// The identity as `identity_of` in firmware/policy/proof.hpp specifies it.
 [[nodiscard]] std::uint32_t identity_of(const ExportedPolicy& policy);
 
-// `notes` become the comment on top, a line each, of at most 105 characters. The text depends on the
+// The policy is striker::policy::NAME, a C++ identifier. `notes` become the comment on top, a line each, of at most 105 characters. The text depends on the
 // arguments alone: no dates, no paths.
-[[nodiscard]] std::string header_text(const ExportedPolicy& policy, const std::vector<std::string>& notes);
+[[nodiscard]] std::string header_text(const ExportedPolicy& policy, const std::string& name,
+                                      const std::vector<std::string>& notes);
 
 }  // namespace striker::training

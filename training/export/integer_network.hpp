@@ -1,4 +1,4 @@
-// The exporter's own reference of the integer Q network that firmware/core/policy.hpp specifies, with sizes
+// The exporter's own reference of the integer Q network that firmware/policy/policy.hpp specifies, with sizes
 // known only at run time. It shares no code with the firmware, so that the golden vectors it computes check
 // one implementation against another.
 #pragma once

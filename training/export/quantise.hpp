@@ -1,4 +1,4 @@
-// From the float network to the integer network of firmware/core/policy.hpp.
+// From the float network to the integer network of firmware/policy/policy.hpp.
 //
 // Scales are powers of two, one a layer. Activations: the greatest scale at which everything that was met in
 // play (the calibration states), with a margin, stays below 2^15. Weights: the greatest scale at which they

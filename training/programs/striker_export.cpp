@@ -17,14 +17,16 @@ struct Options {
   std::filesystem::path config;
   std::filesystem::path header;
   std::filesystem::path report;
+  std::string name;
   std::string weights = "int16";
 };
 
 int export_to(const Options& options) {
+  const std::string name = policy_name_of(options.name.empty() ? options.header : options.name);
   const Model model = load_model(options.model);
   const WeightType weights = options.weights == "int8" ? WeightType::int8 : WeightType::int16;
   const Export exported = export_model(model, task_of(model, options.config), weights);
-  host::write_file(options.header, header_of(exported, model));
+  host::write_file(options.header, header_of(exported, model, name));
   if (!options.report.empty()) {
     host::write_file(options.report, report_of(exported, model));
   }
@@ -55,15 +57,14 @@ int export_to(const Options& options) {
 int main(int argc, char** argv) {
   using namespace striker::training;
   CLI::App app(
-      "Quantises a float model to the integer network of the firmware, proves for every possible input that "
-      "no\n"
-      "sum leaves 32 bits, and writes it as a C++ header with golden vectors. Prints range, headroom and "
-      "error of\n"
-      "each layer, and how far the integer network agrees with the float one.",
+      "Quantises a float model to the integer network of the firmware, proves for every possible\n"
+      "input that no sum leaves 32 bits, and writes it as a C++ header with golden vectors. Prints\n"
+      "range, headroom and error of each layer, and how far the integer network agrees with the float.",
       "striker-export");
   Options options;
   app.add_option("MODEL", options.model, "safetensors file")->required();
   app.add_option("-o,--output", options.header, "the header to write")->required();
+  app.add_option("--name", options.name, "the policy's name in C++ (default: that of the output file)");
   app.add_option("--config", options.config,
                  "the TOML file whose task it was trained for, if the model does not hold it");
   app.add_option("--weights", options.weights, "int16, or int8: half the flash, less precise")

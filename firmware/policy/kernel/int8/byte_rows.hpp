@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 inline constexpr std::size_t byte_group_rows = 4;
 
@@ -48,4 +48,4 @@ template <class Kernel, class Packed, class Activations, class Take>
   }
 }
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

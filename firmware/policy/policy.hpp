@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace striker::core {
+namespace striker::policy {
 
 // State elements a policy can take, in the robot's frame (RCS, the paper's section III), and the unit of the
 // controller's integers.
@@ -100,4 +100,4 @@ struct Policy {
   std::array<GoldenVector<Inputs, Actions>, Goldens> golden_vectors;
 };
 
-}  // namespace striker::core
+}  // namespace striker::policy

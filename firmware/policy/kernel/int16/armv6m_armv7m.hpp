@@ -16,10 +16,10 @@
 #include <cstdint>
 #include <utility>
 
-#include "firmware/core/kernel/scalar.hpp"
-#include "firmware/core/kernel/stream.hpp"
+#include "firmware/policy/kernel/packing.hpp"
+#include "firmware/policy/kernel/scaling.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 namespace mla {
 
@@ -328,4 +328,4 @@ struct Mla {
   }
 };
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

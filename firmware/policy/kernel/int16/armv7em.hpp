@@ -11,10 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/core/kernel/scalar.hpp"
-#include "firmware/core/kernel/stream.hpp"
+#include "firmware/policy/kernel/packing.hpp"
+#include "firmware/policy/kernel/scaling.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 namespace dsp {
 
@@ -231,4 +231,4 @@ struct Dsp {
   }
 };
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

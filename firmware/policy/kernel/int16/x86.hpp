@@ -12,10 +12,10 @@
 #include <cstdint>
 #include <utility>
 
-#include "firmware/core/kernel/scalar.hpp"
-#include "firmware/core/kernel/stream.hpp"
+#include "firmware/policy/kernel/packing.hpp"
+#include "firmware/policy/kernel/scaling.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 namespace x86 {
 
@@ -334,4 +334,4 @@ struct Avx2 : x86::Kernel<x86::Avx2Vectors> {
 };
 #endif
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

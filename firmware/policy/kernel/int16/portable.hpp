@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/core/kernel/scalar.hpp"
+#include "firmware/policy/kernel/scaling.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 struct Portable {
   static constexpr const char* name = "portable";
@@ -67,4 +67,4 @@ struct Portable {
   }
 };
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

@@ -9,11 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/core/kernel/dsp.hpp"
-#include "firmware/core/kernel/scalar.hpp"
-#include "firmware/core/kernel/stream.hpp"
+#include "firmware/policy/kernel/int16/armv7em.hpp"
+#include "firmware/policy/kernel/packing.hpp"
+#include "firmware/policy/kernel/scaling.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 struct DspBytes {
   static constexpr const char* name = "bytes, dsp";
@@ -152,4 +152,4 @@ struct DspBytes {
   }
 };
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

@@ -7,23 +7,23 @@
 #include <type_traits>
 
 #if defined(__OPTIMIZE__) && defined(__arm__) && (__ARM_FEATURE_MVE & 1)
-#include "firmware/core/kernel/mve.hpp"
-#include "firmware/core/kernel/mve_bytes.hpp"
+#include "firmware/policy/kernel/int16/helium.hpp"
+#include "firmware/policy/kernel/int8/helium.hpp"
 #elif defined(__OPTIMIZE__) && defined(__ARM_FEATURE_DSP)
-#include "firmware/core/kernel/dsp.hpp"
-#include "firmware/core/kernel/dsp_bytes.hpp"
+#include "firmware/policy/kernel/int16/armv7em.hpp"
+#include "firmware/policy/kernel/int8/armv7em.hpp"
 #elif defined(__OPTIMIZE__) && defined(__arm__)
-#include "firmware/core/kernel/bytes.hpp"
-#include "firmware/core/kernel/mla.hpp"
+#include "firmware/policy/kernel/int16/armv6m_armv7m.hpp"
+#include "firmware/policy/kernel/int8/plain.hpp"
 #elif defined(__SSE2__)
-#include "firmware/core/kernel/bytes.hpp"
-#include "firmware/core/kernel/x86.hpp"
+#include "firmware/policy/kernel/int16/x86.hpp"
+#include "firmware/policy/kernel/int8/plain.hpp"
 #else
-#include "firmware/core/kernel/bytes.hpp"
-#include "firmware/core/kernel/portable.hpp"
+#include "firmware/policy/kernel/int16/portable.hpp"
+#include "firmware/policy/kernel/int8/plain.hpp"
 #endif
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 #if defined(__OPTIMIZE__) && defined(__arm__) && (__ARM_FEATURE_MVE & 1)
 using Chosen = Mve;
@@ -49,4 +49,4 @@ using ChosenBytes = Bytes;
 template <class Weight>
 using ChosenFor = std::conditional_t<std::is_same_v<Weight, std::int8_t>, ChosenBytes, Chosen>;
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

@@ -1,5 +1,5 @@
 // The kick policy: an integer Q network, written by striker-export. Do not edit: an altered number does
-// not compile. Format and arithmetic: firmware/core/policy.hpp.
+// not compile. Format and arithmetic: firmware/policy/policy.hpp.
 //
 // Trained by striker-train, configuration "kick", seed 1; the float model's identity is 0f57bf8c.
 // Mean reward of the float network on its validation episodes, servo plant: 7.837.
@@ -10,24 +10,24 @@
 // Layer 3: weights times 2^9, results after the shift times 2^8, 0.22 bits of headroom.
 #pragma once
 
-#include "firmware/core/policy.hpp"
+#include "firmware/policy/policy.hpp"
 
 namespace striker::policy {
 
 // clang-format off
-inline constexpr core::Policy<8, 112, 112, 3, 16> trained = {
+inline constexpr Policy<8, 112, 112, 3, 16> kick = {
     .identity = 0x2344E123U,
     .configuration_hash = 0xD0FAB02FU,
     .decision_period_ms = 50,
     .state = {{
-        {.element = core::StateElement::ball_x, .decisions_ago = 0},
-        {.element = core::StateElement::ball_y, .decisions_ago = 0},
-        {.element = core::StateElement::robot_speed, .decisions_ago = 0},
-        {.element = core::StateElement::ball_vx, .decisions_ago = 0},
-        {.element = core::StateElement::ball_vy, .decisions_ago = 0},
-        {.element = core::StateElement::ball_angle, .decisions_ago = 0},
-        {.element = core::StateElement::decisions_left, .decisions_ago = 0},
-        {.element = core::StateElement::robot_speed, .decisions_ago = 1},
+        {.element = StateElement::ball_x, .decisions_ago = 0},
+        {.element = StateElement::ball_y, .decisions_ago = 0},
+        {.element = StateElement::robot_speed, .decisions_ago = 0},
+        {.element = StateElement::ball_vx, .decisions_ago = 0},
+        {.element = StateElement::ball_vy, .decisions_ago = 0},
+        {.element = StateElement::ball_angle, .decisions_ago = 0},
+        {.element = StateElement::decisions_left, .decisions_ago = 0},
+        {.element = StateElement::robot_speed, .decisions_ago = 1},
     }},
     .mirrored = true,
     .input_scales = {{

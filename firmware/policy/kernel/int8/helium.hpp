@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/core/kernel/byte_rows.hpp"
-#include "firmware/core/kernel/mve.hpp"
-#include "firmware/core/kernel/stream.hpp"
+#include "firmware/policy/kernel/int16/helium.hpp"
+#include "firmware/policy/kernel/int8/byte_rows.hpp"
+#include "firmware/policy/kernel/packing.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 struct MveBytes {
   static constexpr const char* name = "bytes, mve";
@@ -78,4 +78,4 @@ struct MveBytes {
   }
 };
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

@@ -23,11 +23,11 @@
 #include <type_traits>
 #include <utility>
 
-#include "firmware/core/kernel/chosen.hpp"
-#include "firmware/core/kernel/scalar.hpp"
-#include "firmware/core/policy.hpp"
+#include "firmware/policy/kernel/scaling.hpp"
+#include "firmware/policy/kernel/select.hpp"
+#include "firmware/policy/policy.hpp"
 
-namespace striker::core {
+namespace striker::policy {
 
 template <std::size_t Actions>
 struct QValues {
@@ -73,4 +73,4 @@ template <const auto& policy, class Kernel = ChosenKernel<policy>>
   return q;
 }
 
-}  // namespace striker::core
+}  // namespace striker::policy

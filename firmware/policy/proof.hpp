@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/core/policy.hpp"
+#include "firmware/policy/policy.hpp"
 
-namespace striker::core {
+namespace striker::policy {
 
 namespace proof {
 
@@ -149,4 +149,4 @@ constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G, W>& policy) {
   return hash.value();
 }
 
-}  // namespace striker::core
+}  // namespace striker::policy

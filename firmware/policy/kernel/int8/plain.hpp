@@ -9,10 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/core/kernel/byte_rows.hpp"
-#include "firmware/core/kernel/scalar.hpp"
+#include "firmware/policy/kernel/int8/byte_rows.hpp"
+#include "firmware/policy/kernel/scaling.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 struct Bytes {
   static constexpr const char* name = "bytes";
@@ -76,4 +76,4 @@ struct Bytes {
   }
 };
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

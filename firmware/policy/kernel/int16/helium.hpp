@@ -13,10 +13,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/core/kernel/scalar.hpp"
-#include "firmware/core/kernel/stream.hpp"
+#include "firmware/policy/kernel/packing.hpp"
+#include "firmware/policy/kernel/scaling.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 namespace mve {
 
@@ -247,4 +247,4 @@ struct Mve {
   }
 };
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "firmware/core/policy.hpp"
+#include "firmware/policy/policy.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 inline constexpr std::int32_t greatest_activation = 32767;
 
@@ -172,4 +172,4 @@ constexpr std::array<std::int32_t, Outputs> rounded_biases(const Layer<Inputs, O
   return biases;
 }
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/core/policy.hpp"
+#include "firmware/policy/policy.hpp"
 
-namespace striker::core::kernel {
+namespace striker::policy::kernel {
 
 // One half-word beside the other.
 constexpr std::uint32_t half_words(std::int32_t high, std::int32_t low) {
@@ -49,4 +49,4 @@ constexpr std::size_t round_up(std::size_t count, std::size_t multiple) {
   return (count + multiple - 1) / multiple * multiple;
 }
 
-}  // namespace striker::core::kernel
+}  // namespace striker::policy::kernel
