@@ -3,12 +3,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sil/world/contacts.hpp"
-#include "sil/world/field.hpp"
+#include "sil/world/ode/contacts.hpp"
+#include "sil/world/ode/field.hpp"
 #include "sil/world/field_specs.hpp"
-#include "sil/world/materials.hpp"
-#include "sil/world/ode_world.hpp"
-#include "sil/world/robot.hpp"
+#include "sil/world/ode/materials.hpp"
+#include "sil/world/ode/ode_world.hpp"
+#include "sil/world/ode/robot.hpp"
 
 namespace striker::sil {
 namespace {

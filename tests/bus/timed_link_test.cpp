@@ -7,7 +7,7 @@
 #include "sil/budget/message_set.hpp"
 #include "sil/bus/frame_bits.hpp"
 #include "sil/bus/in_process_link.hpp"
-#include "sil/kick/kick_run.hpp"
+#include "sil/scenario/kick_run.hpp"
 
 namespace striker::sil {
 namespace {

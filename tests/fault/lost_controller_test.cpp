@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sil/bus/in_process_link.hpp"
-#include "sil/kick/kick_run.hpp"
+#include "sil/scenario/kick_run.hpp"
 
 namespace striker::sil {
 namespace {

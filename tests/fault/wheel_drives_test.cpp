@@ -1,5 +1,5 @@
 // The drives' own watchdog and receive checks.
-#include "sil/drives/wheel_drives.hpp"
+#include "sil/robot/wheel_drives.hpp"
 
 #include <gtest/gtest.h>
 

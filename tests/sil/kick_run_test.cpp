@@ -1,5 +1,5 @@
 // The kick runner with the controller in process: same bytes for the same seed, episodes that stand alone.
-#include "sil/kick/kick_run.hpp"
+#include "sil/scenario/kick_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sil/world/field.hpp"
+#include "sil/world/ode/field.hpp"
 
 #include <gtest/gtest.h>
 

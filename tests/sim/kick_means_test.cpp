@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "sil/report/kick_report.hpp"
+#include "sil/task/kick_report.hpp"
 #include "tests/sim/play.hpp"
 
 namespace striker::sil {

@@ -1,4 +1,4 @@
-#include "sil/world/materials.hpp"
+#include "sil/world/ode/materials.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sil/world/kick_task.hpp"
+#include "sil/task/kick_task.hpp"
 #include "sil/world/random.hpp"
 #include "sil/world/robot_specs.hpp"
 #include "sil/world/world.hpp"

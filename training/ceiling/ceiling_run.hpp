@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sil/report/kick_report.hpp"
+#include "sil/task/kick_report.hpp"
 #include "training/ceiling/ceiling.hpp"
 #include "training/ceiling/rivals.hpp"
 

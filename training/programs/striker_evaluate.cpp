@@ -9,7 +9,7 @@
 
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/files.hpp"
-#include "sil/report/kick_report.hpp"
+#include "sil/task/kick_report.hpp"
 #include "training/export/agreement.hpp"
 #include "training/model/model.hpp"
 #include "training/task/kick_environment.hpp"

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "sil/world/kick_task.hpp"
+#include "sil/task/kick_task.hpp"
 #include "sil/world/planar_world.hpp"
 #include "sil/world/world.hpp"
 #include "training/task/state.hpp"

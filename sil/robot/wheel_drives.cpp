@@ -1,4 +1,4 @@
-#include "sil/drives/wheel_drives.hpp"
+#include "sil/robot/wheel_drives.hpp"
 
 #include <cmath>
 

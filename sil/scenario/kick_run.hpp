@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "sil/bus/controller_link.hpp"
-#include "sil/bus/vision.hpp"
-#include "sil/drives/wheel_drives.hpp"
-#include "sil/report/kick_report.hpp"
-#include "sil/world/kick_task.hpp"
+#include "sil/robot/vision.hpp"
+#include "sil/robot/wheel_drives.hpp"
+#include "sil/task/kick_report.hpp"
+#include "sil/task/kick_task.hpp"
 
 namespace striker::sil {
 

@@ -1,10 +1,10 @@
-#include "sil/world/ode_world.hpp"
+#include "sil/world/ode/ode_world.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
 #include "sil/world/field_specs.hpp"
-#include "sil/world/materials.hpp"
+#include "sil/world/ode/materials.hpp"
 
 namespace striker::sil {
 namespace {

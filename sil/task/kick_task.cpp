@@ -1,4 +1,4 @@
-#include "sil/world/kick_task.hpp"
+#include "sil/task/kick_task.hpp"
 
 #include <cmath>
 #include <numbers>

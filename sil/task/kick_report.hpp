@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sil/world/kick_task.hpp"
+#include "sil/task/kick_task.hpp"
 
 namespace striker::sil {
 

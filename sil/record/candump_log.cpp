@@ -1,4 +1,4 @@
-#include "sil/bus/candump_log.hpp"
+#include "sil/record/candump_log.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>

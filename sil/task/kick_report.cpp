@@ -1,4 +1,4 @@
-#include "sil/report/kick_report.hpp"
+#include "sil/task/kick_report.hpp"
 
 #include <fmt/format.h>
 

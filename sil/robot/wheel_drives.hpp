@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "firmware/can/codec.hpp"
-#include "sil/drives/plant.hpp"
+#include "sil/robot/plant.hpp"
 
 namespace striker::sil {
 

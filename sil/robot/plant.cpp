@@ -1,4 +1,4 @@
-#include "sil/drives/plant.hpp"
+#include "sil/robot/plant.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sil/world/ode_handles.hpp"
+#include "sil/world/ode/handles.hpp"
 
 namespace striker::sil {
 

@@ -1,4 +1,4 @@
-#include "sil/kick/kick_run.hpp"
+#include "sil/scenario/kick_run.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "sil/world/contacts.hpp"
+#include "sil/world/ode/contacts.hpp"
 
 #include <cmath>
 

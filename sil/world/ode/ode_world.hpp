@@ -1,7 +1,7 @@
 // What every ODE world here has: gravity, damping, softness, and the ball.
 #pragma once
 
-#include "sil/world/ode_handles.hpp"
+#include "sil/world/ode/handles.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {

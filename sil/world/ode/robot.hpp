@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "sil/world/ode_handles.hpp"
+#include "sil/world/ode/handles.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {

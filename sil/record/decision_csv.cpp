@@ -1,4 +1,4 @@
-#include "sil/kick/decision_csv.hpp"
+#include "sil/record/decision_csv.hpp"
 
 #include <fmt/format.h>
 

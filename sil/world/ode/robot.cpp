@@ -1,10 +1,10 @@
-#include "sil/world/robot.hpp"
+#include "sil/world/ode/robot.hpp"
 
 #include <cmath>
 #include <cstddef>
 
-#include "sil/world/materials.hpp"
-#include "sil/world/ode_world.hpp"
+#include "sil/world/ode/materials.hpp"
+#include "sil/world/ode/ode_world.hpp"
 #include "sil/world/robot_specs.hpp"
 
 namespace striker::sil {

@@ -1,4 +1,4 @@
-#include "sil/bus/vision.hpp"
+#include "sil/robot/vision.hpp"
 
 #include <cmath>
 #include <numbers>
