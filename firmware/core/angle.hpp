@@ -3,7 +3,7 @@
 // A binary angle counts 2^16 to the full circle, so that adding and subtracting wrap by themselves. CORDIC
 // takes 16 shift-and-add steps whatever its input, with no multiplication but one and no table of sines.
 // Error: at most 4 counts of angle (0.022 degrees) for vectors longer than 10,000 units, and 2^-13 of a
-// rotated vector's length plus 16 units (held by tests/unit/angle_test.cpp).
+// rotated vector's length plus 16 units (held by tests/core/angle_test.cpp).
 #pragma once
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 //
 // The arithmetic is the specification in policy.hpp, to the bit, whatever the kernel. The header's proof
 // makes overflow impossible, so no sum is checked here. The instruction count does not depend on the input:
-// saturation, ReLU and argmax are masks or saturating instructions, never branches (held by tests/pil and
-// tests/timing).
+// saturation, ReLU and argmax are masks or saturating instructions, never branches (held by tests/ports and
+// tests/policy).
 //
 // A kernel is a struct that says how activations and weights lie in memory and how a layer is computed:
 //

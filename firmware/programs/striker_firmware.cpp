@@ -99,7 +99,7 @@ class Helper {
           sigset_t all;
           sigfillset(&all);
           pthread_sigmask(SIG_SETMASK, &all, nullptr);
-          while (!stop.host::stop_requested()) {
+          while (!stop.stop_requested()) {
             work();
           }
         }) {}

@@ -15,10 +15,10 @@
 #include "firmware/host/periodic_clock.hpp"
 #include "firmware/host/stop_signal.hpp"
 #include "sil/bus/bit_rate.hpp"
-#include "sil/record/candump_log.hpp"
 #include "sil/bus/in_process_link.hpp"
 #include "sil/bus/socketcan_link.hpp"
 #include "sil/bus/timed_link.hpp"
+#include "sil/record/candump_log.hpp"
 #include "sil/record/decision_csv.hpp"
 #include "sil/scenario/kick_run.hpp"
 

@@ -11,7 +11,7 @@
 // and keep its share along it. A wheel's movement and spin turn likewise, and lose the same share.
 //
 // Left out: the tyres' softness (they creep 0.1 mm/s at full torque) and width, and the body's pitch. What
-// that costs is measured in tests/sim/planar_world_test.cpp.
+// that costs is measured in tests/world/planar_world_test.cpp.
 #pragma once
 
 #include <algorithm>

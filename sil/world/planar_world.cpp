@@ -5,9 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sil/world/field_specs.hpp"
 #include "sil/world/ode/contacts.hpp"
 #include "sil/world/ode/field.hpp"
-#include "sil/world/field_specs.hpp"
 #include "sil/world/ode/ode_world.hpp"
 #include "sil/world/planar_robot.hpp"
 #include "sil/world/robot_specs.hpp"

@@ -7,7 +7,7 @@
 // full world's contact joints; wheels are contact joints with the floor that drive at the set-point.
 //
 // How near it is to the full wheel bodies, on 1,000 random action sequences of the kick task
-// (tests/sim/planar_world_test.cpp; median, 99 %, largest of all):
+// (tests/world/planar_world_test.cpp; median, 99 %, largest of all):
 //   robot's position until the contact    0.014 mm   0.11 mm   0.16 mm
 //   robot's speed until the contact       0.1 mm/s   0.2 mm/s  0.7 mm/s
 //   reward of the contact                 0.0001     0.0007    0.0012

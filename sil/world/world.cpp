@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sil/world/field_specs.hpp"
 #include "sil/world/ode/contacts.hpp"
 #include "sil/world/ode/field.hpp"
-#include "sil/world/field_specs.hpp"
 #include "sil/world/ode/materials.hpp"
 #include "sil/world/ode/ode_world.hpp"
 #include "sil/world/ode/robot.hpp"

@@ -19,7 +19,7 @@
 #include "tests/images/instruction_counter.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/images/step_search.hpp"
-#include "tests/images/synthetic_policy.hpp"
+#include "tests/policy/synthetic_policy.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "firmware/policy/proof.hpp"
 #include "tests/images/console.hpp"
 #include "tests/images/recording.hpp"
-#include "tests/images/synthetic_policy.hpp"
+#include "tests/policy/synthetic_policy.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // A recorded run of the simulator, frame by frame: what went to the controller, and what it answered.
 //
-// The file (tests/pil/record_run.py makes it of a candump log): for each frame 11 bytes, identifier (16 bits,
+// The file (tests/ports/record_run.py makes it of a candump log): for each frame 11 bytes, identifier (16 bits,
 // little endian), length, 8 bytes of data. Bit 15 of the identifier marks the controller's own frames; a
 // tick's inputs end with its SYNC, and its answers follow.
 #pragma once

@@ -5,7 +5,7 @@
 
 #include "firmware/core/controller.hpp"
 #include "tests/images/instruction_counter.hpp"
-#include "tests/images/synthetic_policy.hpp"
+#include "tests/policy/synthetic_policy.hpp"
 
 namespace striker::images {
 

@@ -96,5 +96,5 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--json", options.json, "write the figures to this file");
   app.add_option("--csv", options.csv, "write a row an episode to this file, with the actions");
-  return host::run(app, argc, argv, [&] { return find_ceiling(options); });
+  return striker::host::run(app, argc, argv, [&] { return find_ceiling(options); });
 }

@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   auto* decisions = app.add_option("--decisions", options.decisions, "CSV file of a controller's decisions");
   app.add_option("--json", options.json, "write the figures to this file");
   episodes->needs(seed)->excludes(decisions);
-  return host::run(app, argc, argv, [&] {
+  return striker::host::run(app, argc, argv, [&] {
     if (!*episodes && !*decisions) {
       throw std::runtime_error("give --episodes and --seed, or --decisions");
     }

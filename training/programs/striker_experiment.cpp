@@ -214,7 +214,7 @@ int main(int argc, char** argv) {
     add_options(*app.add_subcommand(kind.name, kind.says), options);
   }
   app.require_subcommand(1);
-  return host::run(app, argc, argv, [&] {
+  return striker::host::run(app, argc, argv, [&] {
     const auto chosen = std::find_if(kinds.begin(), kinds.end(),
                                      [&](const Kind& kind) { return app.got_subcommand(kind.name); });
     return carry_out_experiment(options, *chosen);

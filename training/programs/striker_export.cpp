@@ -22,7 +22,8 @@ struct Options {
 };
 
 int export_to(const Options& options) {
-  const std::string name = policy_name_of(options.name.empty() ? options.header : options.name);
+  const std::string name =
+      policy_name_of(options.name.empty() ? options.header : std::filesystem::path(options.name));
   const Model model = load_model(options.model);
   const WeightType weights = options.weights == "int8" ? WeightType::int8 : WeightType::int16;
   const Export exported = export_model(model, task_of(model, options.config), weights);
@@ -71,5 +72,5 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"int16", "int8"}))
       ->capture_default_str();
   app.add_option("--report", options.report, "write the figures to this JSON file");
-  return host::run(app, argc, argv, [&options] { return export_to(options); });
+  return striker::host::run(app, argc, argv, [&options] { return export_to(options); });
 }

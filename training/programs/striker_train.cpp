@@ -90,5 +90,5 @@ int main(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--out", options.out, "directory for the results; made if missing")->required();
   app.add_flag("--resume", options.resume, "go on with the unfinished training in that directory");
-  return host::run(app, argc, argv, [&options] { return train_and_save(options); });
+  return striker::host::run(app, argc, argv, [&options] { return train_and_save(options); });
 }

@@ -4,8 +4,8 @@
 #include <array>
 #include <span>
 
-#include "sil/world/ode/materials.hpp"
 #include "sil/world/ode/handles.hpp"
+#include "sil/world/ode/materials.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {
