@@ -2,6 +2,7 @@
 // boards that QEMU has bring none but serial ports: slcan_bus.cpp, which they use, speaks slcan over one.
 #pragma once
 
+#include "firmware/can/bus_health.hpp"
 #include "firmware/can/frame.hpp"
 
 namespace striker::bare_metal {
@@ -11,7 +12,9 @@ void start_can();
 // Never waits. False if nothing has come.
 [[nodiscard]] bool receive_can(can::Frame& frame);
 
-// Waits until the frame is on its way.
-void send_can(const can::Frame& frame);
+// False if the frame was not taken.
+[[nodiscard]] bool try_send_can(const can::Frame& frame);
+
+[[nodiscard]] can::BusHealth can_health();
 
 }  // namespace striker::bare_metal

@@ -23,11 +23,16 @@ bool receive_can(can::Frame& frame) {
   return false;
 }
 
-void send_can(const can::Frame& frame) {
+bool try_send_can(const can::Frame& frame) {
   const SlcanLine line = slcan_line(frame);
   for (std::size_t i = 0; i < line.length; ++i) {
     uart::put_letter(line.text[i]);
   }
+  return true;
+}
+
+can::BusHealth can_health() {
+  return can::BusHealth::active;
 }
 
 }  // namespace striker::bare_metal

@@ -1,4 +1,4 @@
-#include "firmware/core/angle.hpp"
+#include "firmware/core/estimation/angle.hpp"
 
 #include <array>
 

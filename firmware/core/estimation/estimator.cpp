@@ -1,4 +1,4 @@
-#include "firmware/core/estimator.hpp"
+#include "firmware/core/estimation/estimator.hpp"
 
 #include <algorithm>
 
@@ -6,14 +6,11 @@ namespace striker::core {
 
 namespace {
 
-constexpr std::int32_t um_per_quarter_mm = 250;
-
-// Far beyond the vision's freshness limit; it keeps every product within 32 bits.
+// Far beyond the limit of freshness; it keeps every product within 32 bits.
 constexpr std::uint32_t greatest_led_ticks = 1000;
+static_assert(greatest_led_ticks > vision_timeout_ticks);
 
-constexpr Vector to_um(std::int32_t x_quarter_mm, std::int32_t y_quarter_mm) {
-  return {x_quarter_mm * um_per_quarter_mm, y_quarter_mm * um_per_quarter_mm};
-}
+constexpr std::int32_t picture_period_ms = decision_period_ms;
 
 }  // namespace
 
@@ -24,20 +21,20 @@ void Estimator::reset() {
   led_to_tick_ = before.led_to_tick_;
 }
 
-void Estimator::take_pose(const can::VisionPose& pose) {
-  incoming_.frame = pose.frame;
-  incoming_.robot_um = to_um(pose.x_quarter_mm, pose.y_quarter_mm);
-  incoming_.heading = wrap_angle(pose.heading);
-  pose_waits_ = true;
+void Estimator::take(const RobotSighting& robot) {
+  incoming_.number = robot.picture;
+  incoming_.robot_um = robot.position_um;
+  incoming_.heading = robot.heading;
+  robot_waits_ = true;
 }
 
-void Estimator::take_ball(const can::VisionBall& ball) {
-  ball_frame_ = ball.frame;
-  incoming_.ball_um = to_um(ball.x_quarter_mm, ball.y_quarter_mm);
+void Estimator::take(const BallSighting& ball) {
+  ball_picture_ = ball.picture;
+  incoming_.ball_um = ball.position_um;
   ball_waits_ = true;
 }
 
-void Estimator::take_wheels(const can::WheelState& wheels) {
+void Estimator::take(const WheelSpeeds& wheels) {
   robot_speed_mm_s_ = (wheels.left_mm_s + wheels.right_mm_s) / 2;
 }
 
@@ -46,12 +43,12 @@ bool Estimator::end_tick(std::uint32_t tick) {
     travelled_um_ += robot_speed_mm_s_ * static_cast<std::int32_t>(tick - led_to_tick_);
   }
   led_to_tick_ = tick;
-  if (!pose_waits_ || !ball_waits_ || incoming_.frame != ball_frame_) {
+  if (!robot_waits_ || !ball_waits_ || incoming_.number != ball_picture_) {
     return false;
   }
-  pose_waits_ = false;
+  robot_waits_ = false;
   ball_waits_ = false;
-  if (has_picture_ && incoming_.frame == last_.frame) {
+  if (has_picture_ && incoming_.number == last_.number) {
     return false;
   }
   take_picture(tick);
@@ -59,10 +56,10 @@ bool Estimator::end_tick(std::uint32_t tick) {
 }
 
 void Estimator::take_picture(std::uint32_t tick) {
-  const std::int32_t frames = (incoming_.frame - last_.frame) & 0xF;
-  has_velocity_ = has_picture_ && frames <= greatest_frame_step;
+  const std::int32_t pictures = (incoming_.number - last_.number) & (picture_numbers - 1);
+  has_velocity_ = has_picture_ && pictures <= greatest_picture_step;
   if (has_velocity_) {
-    const std::int32_t elapsed_ms = frames * vision_period_ticks;
+    const std::int32_t elapsed_ms = pictures * picture_period_ms;
     ball_velocity_mm_s_ = {(incoming_.ball_um.x - last_.ball_um.x) / elapsed_ms,
                            (incoming_.ball_um.y - last_.ball_um.y) / elapsed_ms};
   }

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "firmware/core/estimator.hpp"
+#include "firmware/core/estimation/estimator.hpp"
 #include "firmware/policy/policy.hpp"
 
 namespace striker::core {

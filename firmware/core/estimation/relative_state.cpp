@@ -1,4 +1,4 @@
-#include "firmware/core/relative_state.hpp"
+#include "firmware/core/estimation/relative_state.hpp"
 
 namespace striker::core {
 
