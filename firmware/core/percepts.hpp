@@ -21,13 +21,13 @@ inline constexpr std::int32_t picture_numbers = 16;
 
 struct RobotSighting {
   std::int32_t picture = 0;
-  Vector position_um;
+  Vector position_um = {};
   BinaryAngle heading = 0;
 };
 
 struct BallSighting {
   std::int32_t picture = 0;
-  Vector position_um;
+  Vector position_um = {};
 };
 
 // Of the rims, positive forward: as measured, or as a set-point.

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <random>
 
-#include "tests/core/controller_rig.hpp"
+#include "tests/loop/node_rig.hpp"
 
-namespace striker::core {
+namespace striker::loop {
 namespace {
 
 class HostileBus {
@@ -63,7 +63,7 @@ struct Account {
 
 void run_hostile(std::uint32_t seed, std::uint64_t& driven_ticks) {
   HostileBus bus(seed);
-  ControllerRig rig;
+  NodeRig rig;
   Account account;
   can::SendCounter pose_counter;
   can::SendCounter ball_counter;
@@ -105,12 +105,12 @@ void run_hostile(std::uint32_t seed, std::uint64_t& driven_ticks) {
         rig.torque() || rig.command.left_set_point_2mm_s != 0 || rig.command.right_set_point_2mm_s != 0;
     if (moves) {
       ++driven_ticks;
-      ASSERT_EQ(rig.controller.state(), can::State::active);
+      ASSERT_EQ(rig.state(), core::State::active);
       ASSERT_LE(now - account.vision, 150U);
       ASSERT_LE(now - account.wheels, 20U);
-      ASSERT_LE(std::abs(rig.command.left_torque_mNm), torque_limit_mNm);
-      ASSERT_LE(std::abs(rig.command.right_torque_mNm), torque_limit_mNm);
-      ASSERT_LE(std::abs(rig.command.left_set_point_2mm_s) * 2, top_rim_speed_mm_s);
+      ASSERT_LE(std::abs(rig.command.left_torque_mNm), built_in_robot.torque_limit_mNm);
+      ASSERT_LE(std::abs(rig.command.right_torque_mNm), built_in_robot.torque_limit_mNm);
+      ASSERT_LE(std::abs(rig.command.left_set_point_2mm_s) * 2, built_in_robot.top_rim_speed_mm_s);
     }
   }
 }
@@ -124,4 +124,4 @@ TEST(RandomBus, NoTorqueWithoutAValidFreshArmedCause) {
 }
 
 }  // namespace
-}  // namespace striker::core
+}  // namespace striker::loop

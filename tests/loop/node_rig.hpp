@@ -1,25 +1,28 @@
-// A controller on a test bench: pictures every 50 ticks, wheel states every tick, each of which a test may
-// withhold, and the last wheel command.
+// A controller's node on a test bench: pictures every 50 ticks, wheel states every tick, each of which a test
+// may withhold, and what it last answered.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "firmware/core/controller.hpp"
+#include "firmware/can/codec.hpp"
+#include "firmware/loop/built_in_node.hpp"
 
-namespace striker::core {
+namespace striker::loop {
 
-class ControllerRig {
+class NodeRig {
  public:
   bool send_vision = true;
   bool send_wheels = true;
   std::int32_t ball_y_quarter_mm = 0;  // where it begins to come straight to the robot
   can::WheelState wheels;
   std::vector<can::Frame> extra;  // for the next tick only
-  Controller controller;
+  core::Fault port_fault = core::Fault::none;
+  BuiltInNode node{built_in_robot};
 
   void tick() {
     std::vector<can::Frame> frames = std::exchange(extra, {});
@@ -40,10 +43,21 @@ class ControllerRig {
   }
 
   void step(std::span<const can::Frame> frames) {
-    controller.step({.tick = now_, .frames = frames}, outputs);
-    ASSERT_FALSE(outputs.frames().empty());
-    ASSERT_EQ(can::receive(outputs.frames().back(), command_counter_, command), can::Verdict::accepted);
+    answer({.number = now_, .frames = frames, .port_fault = port_fault});
     ++now_;
+  }
+
+  // A port hands something in between two ticks.
+  void answer(const Tick& tick) {
+    node.step(tick, sent);
+    ASSERT_FALSE(sent.frames().empty());
+    ASSERT_EQ(can::receive(sent.frames().back(), command_counter_, command), can::Verdict::accepted);
+    for (const can::Frame& frame : sent.frames()) {
+      can::Decision made;
+      if (can::is<can::Decision>(frame) && can::unpack(frame, made) == can::Verdict::accepted) {
+        decision = made;
+      }
+    }
   }
 
   void run(std::uint32_t ticks) {
@@ -61,15 +75,18 @@ class ControllerRig {
     run(160);
     mode(can::Mode::arm);
     tick();
-    ASSERT_EQ(controller.state(), can::State::active);
+    ASSERT_EQ(state(), core::State::active);
     run(50);
   }
 
+  [[nodiscard]] core::State state() const { return node.controller().state(); }
+  [[nodiscard]] core::Fault fault() const { return node.controller().fault(); }
   [[nodiscard]] bool torque() const { return command.left_torque_mNm != 0 || command.right_torque_mNm != 0; }
   [[nodiscard]] std::uint32_t now() const { return now_; }
 
   can::WheelCommand command;
-  Outputs outputs;
+  std::optional<can::Decision> decision;  // the last one
+  can::FrameList sent;                    // in the last tick
 
  private:
   std::uint32_t now_ = 0;
@@ -81,4 +98,4 @@ class ControllerRig {
   can::ReceiveCounter command_counter_;
 };
 
-}  // namespace striker::core
+}  // namespace striker::loop

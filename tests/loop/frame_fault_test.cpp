@@ -1,54 +1,54 @@
 // Every protected frame that reaches the controller, broken in every way: ignored whole, and counted.
 #include <gtest/gtest.h>
 
-#include "tests/core/controller_rig.hpp"
+#include "tests/loop/node_rig.hpp"
 
-namespace striker::core {
+namespace striker::loop {
 namespace {
 
 // Steps two copies of an armed controller, one with the bad frame and one without: only the count may differ.
 template <class Message>
-void expect_ignored(const ControllerRig& armed, const can::Frame& bad, std::int32_t IgnoredFrames::*counter,
+void expect_ignored(const NodeRig& armed, const can::Frame& bad, std::int32_t can::IgnoredFrames::*counter,
                     const char* what) {
-  ControllerRig with = armed;
-  ControllerRig without = armed;
+  NodeRig with = armed;
+  NodeRig without = armed;
   with.extra.push_back(bad);
-  const std::int32_t before = with.controller.ignored().*counter;
+  const std::int32_t before = with.node.ignored().*counter;
   for (int i = 0; i < 120; ++i) {
     with.tick();
     without.tick();
     ASSERT_EQ(can::pack(with.command), can::pack(without.command))
         << can::layout<Message>.info.name << " " << what;
   }
-  EXPECT_EQ(with.controller.ignored().*counter, before + 1) << can::layout<Message>.info.name << " " << what;
-  EXPECT_EQ(with.controller.state(), without.controller.state());
+  EXPECT_EQ(with.node.ignored().*counter, before + 1) << can::layout<Message>.info.name << " " << what;
+  EXPECT_EQ(with.state(), without.state());
 }
 
 template <class Message>
-void expect_every_fault_ignored(const ControllerRig& armed, Message message) {
+void expect_every_fault_ignored(const NodeRig& armed, Message message) {
   // Any counter does for a first frame of its kind; a running one needs the next: try them all.
   can::SendCounter sender;
   can::Frame good{};
   for (std::uint8_t counter = 0; counter < can::counter_modulus; ++counter) {
     sender.next = counter;
-    ControllerRig trial = armed;
+    NodeRig trial = armed;
     good = can::send(message, sender);
     trial.extra.push_back(good);
     trial.tick();
-    if (trial.controller.ignored().wrong_counter == armed.controller.ignored().wrong_counter) {
+    if (trial.node.ignored().wrong_counter == armed.node.ignored().wrong_counter) {
       break;
     }
   }
   can::Frame wrong_crc = good;
   wrong_crc.data[0] ^= 0x01U;
-  expect_ignored<Message>(armed, wrong_crc, &IgnoredFrames::wrong_crc, "wrong CRC");
+  expect_ignored<Message>(armed, wrong_crc, &can::IgnoredFrames::wrong_crc, "wrong CRC");
   can::Frame short_frame = good;
   --short_frame.length;
-  expect_ignored<Message>(armed, short_frame, &IgnoredFrames::wrong_length, "short");
+  expect_ignored<Message>(armed, short_frame, &can::IgnoredFrames::wrong_length, "short");
 }
 
 TEST(FrameFault, WrongCrcAndLengthAreIgnoredWholeAndCounted) {
-  ControllerRig rig;
+  NodeRig rig;
   rig.arm();
   while (rig.now() % 50 != 10) {
     rig.tick();
@@ -61,29 +61,37 @@ TEST(FrameFault, WrongCrcAndLengthAreIgnoredWholeAndCounted) {
 }
 
 TEST(FrameFault, ARepeatedCounterIsIgnoredAndCounted) {
-  ControllerRig rig;
+  NodeRig rig;
   rig.arm();
   rig.mode(can::Mode::arm);
   const can::Frame frame = rig.extra.front();
   rig.tick();
-  expect_ignored<can::ModeCommand>(rig, frame, &IgnoredFrames::wrong_counter, "repeated counter");
+  expect_ignored<can::ModeCommand>(rig, frame, &can::IgnoredFrames::wrong_counter, "repeated counter");
 }
 
 TEST(FrameFault, AnOutOfRangeValueIsIgnoredAndCounted) {
-  ControllerRig rig;
+  NodeRig rig;
   rig.arm();
   can::Frame mode = can::pack(can::ModeCommand{});
   mode.data[1] = 0x70U;  // mode 7
   can::protect(mode, can::layout<can::ModeCommand>.info.data_id, 3);
-  expect_ignored<can::ModeCommand>(rig, mode, &IgnoredFrames::out_of_range, "out of range");
-  can::Frame stop = can::pack(can::EmergencyStop{});
-  stop.data[1] = 0xF0U;
-  can::protect(stop, can::layout<can::EmergencyStop>.info.data_id, 3);
-  expect_ignored<can::EmergencyStop>(rig, stop, &IgnoredFrames::out_of_range, "out of range");
+  expect_ignored<can::ModeCommand>(rig, mode, &can::IgnoredFrames::out_of_range, "out of range");
+}
+
+TEST(FrameFault, AnEmergencyStopOfAnySourceStops) {
+  for (std::int32_t source = 0; source < 16; ++source) {
+    NodeRig rig;
+    rig.arm();
+    can::SendCounter counter;
+    rig.extra.push_back(can::send(can::EmergencyStop{.source = source}, counter));
+    rig.tick();
+    EXPECT_EQ(rig.fault(), core::Fault::emergency_stop) << source;
+    EXPECT_FALSE(rig.torque());
+  }
 }
 
 TEST(FrameFault, AnIgnoredWheelStateDoesNotFeedItsWatchdog) {
-  ControllerRig rig;
+  NodeRig rig;
   rig.arm();
   rig.send_wheels = false;
   can::SendCounter counter;
@@ -93,19 +101,19 @@ TEST(FrameFault, AnIgnoredWheelStateDoesNotFeedItsWatchdog) {
     rig.extra.push_back(bad);
     rig.tick();
   }
-  EXPECT_EQ(rig.controller.fault(), can::Fault::wheel_state_lost);
+  EXPECT_EQ(rig.fault(), core::Fault::wheel_state_lost);
 }
 
 TEST(FrameFault, CountsStayAt255) {
-  ControllerRig rig;
+  NodeRig rig;
   can::Frame bad = can::pack(can::EmergencyStop{});
   bad.data[0] ^= 0xFFU;
   for (int i = 0; i < 300; ++i) {
     rig.extra.push_back(bad);
     rig.tick();
   }
-  EXPECT_EQ(rig.controller.ignored().wrong_crc, 255);
+  EXPECT_EQ(rig.node.ignored().wrong_crc, 255);
 }
 
 }  // namespace
-}  // namespace striker::core
+}  // namespace striker::loop
