@@ -40,7 +40,7 @@ void receive_until_next_tick(std::uint32_t tick, Inbox& inbox) {
 
 void send_all(const core::Outputs& outputs) {
   for (const can::Frame& frame : outputs.frames()) {
-    send_can(frame);
+    static_cast<void>(try_send_can(frame));
   }
 }
 
