@@ -6,8 +6,8 @@
 // controller, try_send_can for each frame that it made, can_health.
 //
 // Bit timing. 1 Mbit/s, classic CAN 2.0A, sample point at 75 % of the bit, synchronisation jump width as
-// long as the second phase segment allows. 75 % is what Linux takes at this bit rate (can_calc_bittiming of
-// drivers/net/can/dev: above 800 kbit/s), so that SocketCAN peers sample alike. With a 40 MHz clock, for
+// the second phase segment allows, 4 quanta at most. 75 % is what Linux takes at this bit rate (can_calc_bittiming of
+// drivers/net/can/dev, above 800 kbit/s), so that SocketCAN peers sample alike. With a 40 MHz clock, for
 // example, 20 quanta of 2 clocks: 1 synchronisation, 14 propagation and phase 1, 5 phase 2. Within 0.1 % of
 // the bit rate, from a crystal: an RC oscillator is too coarse.
 //
@@ -35,8 +35,7 @@
 // operator's clear gives torque again. The status must show a bus-off for one tick at least, even if it is
 // over by then.
 //
-// Interrupts and threads. All four are called from the main loop alone, never from an interrupt, start_can
-// once and first. A driver that polls needs no interrupt. One that takes some protects what it shares with
+// Interrupts and threads. All four are called from the main loop alone, never from an interrupt. A driver that polls needs no interrupt. One that takes some protects what it shares with
 // them, keeps them below 5 us, brings a vector table of its own (cortex_m/startup.cpp has the processor's
 // fifteen exceptions), and adds their stack to what stack_usage.py finds: that knows tick_interrupt alone.
 #pragma once
@@ -46,8 +45,8 @@
 
 namespace striker::bare_metal {
 
-// Pins, clocks, bit timing, filters; then the controller joins the bus, which takes 11 recessive bits. Does
-// not wait for a bus that is not there.
+// The first call of main: clocks, pins, bit timing, filters; then the controller joins the bus, which takes 11
+// recessive bits. Does not wait for a bus that is not there.
 void start_can();
 
 // The oldest frame received. False, with `frame` as it was, if nothing waits. Never waits; a few microseconds.

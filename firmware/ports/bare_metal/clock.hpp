@@ -14,7 +14,7 @@
 
 namespace striker::bare_metal {
 
-// Once, and first: tick 0 begins.
+// Once, after start_can and before the other two: tick 0 begins.
 void start_ticks();
 
 // Whole ticks since the start. Wraps after 49 days, from 2^32 - 1 to 0: only differences mean anything.
