@@ -6,9 +6,10 @@
  *     count = striker_step(&controller, received, received_count, tick, answers, STRIKER_MOST_ANSWERS);
  *     send answers[0] to answers[count - 1], in this order
  *
- * No heap, no floating point, no exceptions, no statics: all state is in the object, which may lie anywhere, be
- * copied, and exist several times. One thread at a time for each object. Nothing here waits or fails: what goes
- * wrong becomes a latched fault and torque 0, which the answers tell. firmware/can/striker.dbc has the messages.
+ * No heap, no floating point, no exceptions, no statics: all state is in the object, which may lie anywhere,
+ * be copied, and exist several times. One thread at a time for each object. Nothing here waits or fails:
+ * what goes wrong becomes a latched fault and torque 0, which the answers tell. firmware/can/striker.dbc has
+ * the messages.
  */
 #ifndef STRIKER_H
 #define STRIKER_H
@@ -49,13 +50,13 @@ typedef struct striker_controller {
 /* Fresh from boot. Once before anything else; again to restart. */
 void striker_init(striker_controller* controller);
 
-/* One tick. `frames` are those received since the last step, in the order of reception; may be null if `count`
- * is 0. `tick` is the time in ms; it wraps, and may jump forward where ticks were missed. Writes at most
- * `capacity` answers, in the order of sending, and returns how many the step made: more than `capacity` means that
- * the last were lost, the wheel command first, so give it room for STRIKER_MOST_ANSWERS.
+/* One tick. `frames` are those received since the last step, in the order of reception; may be null if
+ * `count` is 0. `tick` is the time in ms; it wraps, and may jump forward where ticks were missed. Writes at
+ * most `capacity` answers, in the order of sending, and returns how many the step made: more than `capacity`
+ * means that the last were lost, the wheel command among them: give it room for STRIKER_MOST_ANSWERS.
  *
- * Cost on a Cortex-M4: about 2,100 instructions, 15,000 with a decision (every 50 ticks), for the committed policy;
- * 464 bytes of stack beside the controller's own. */
+ * Cost on a Cortex-M4: about 2,100 instructions, 15,000 with a decision (every 50 ticks), for the committed
+ * policy; 464 bytes of stack beside the controller's own. */
 size_t striker_step(striker_controller* controller, const striker_frame* frames, size_t count, uint32_t tick,
                     striker_frame* answers, size_t capacity);
 

@@ -1,13 +1,13 @@
-// A board's timer: the three functions that a board implements (its board.cmake says CLOCK file...) and that
-// the tick loop calls. 1 ms ticks, and the time within one.
+// A board's timer: the three functions that a board implements (its board.cmake says CLOCK file...) and
+// that the tick loop calls. 1 ms ticks, and the time within one.
 //
 // The ticks are the controller's time: the wheel loops' period, every watchdog, and the freshness of every
 // message are counted in them, so 1 ms has to be 1 ms within 0.1 %, from a crystal. Drift against other
 // nodes' clocks does no harm: decisions follow the pictures as they come.
 //
-// Ticks count on while a step runs over them, by an interrupt of the highest priority (its handler is called
-// tick_interrupt: stack_usage.py counts its stack on top of the deepest point) or by a counter that runs
-// freely: the loop sees from the difference how many it has missed. Called from the main loop alone.
+// Ticks count on while a step runs over them, by an interrupt of the highest priority (its handler is
+// called tick_interrupt: stack_usage.py counts its stack on top of the deepest point) or by a counter that
+// runs freely: the loop sees from the difference how many it has missed. Called from the main loop alone.
 #pragma once
 
 #include <cstdint>
