@@ -1,4 +1,5 @@
-// How a CAN controller stands with its bus (ISO 11898-1, fault confinement).
+// How a node stands on its bus (ISO 11898-1, "Fault confinement"): it counts errors, and takes itself off the
+// bus before it disturbs the others for long.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +7,9 @@
 namespace striker::can {
 
 enum class BusHealth : std::uint8_t {
-  active,         // takes part, and marks errors actively
-  error_passive,  // 128 errors: takes part, but only marks errors passively
-  bus_off,        // 256 transmit errors: neither sends nor receives until it is recovered
+  active,         // both error counters below 128: everything works
+  error_passive,  // one of them 128 or more: an unplugged cable, a wrong bit rate, nobody who acknowledges
+  bus_off,        // transmit errors above 255: neither sends nor receives until it has recovered
 };
 
 }  // namespace striker::can

@@ -43,10 +43,11 @@ def host_instructions(copy, _):
     return built if built.returncode != 0 else shell(f"{copy}/tests/policy/kernel_instructions_test.sh", probe)
 
 
-def image(cpu):
+def image(board):
     def test(copy, arguments):
-        return shell(f"{copy}/tests/ports/image_test.py", "--cpu", cpu, "--policy", f"{copy}/{POLICY}", "--host",
-                     arguments.host, "--recording", arguments.recording, "--build-dir", f"{copy}/build-{cpu}",
+        return shell(f"{copy}/tests/ports/image_test.py", "--board", board, "--boards",
+                     arguments.boards, "--policy", f"{copy}/{POLICY}", "--host",
+                     arguments.host, "--recording", arguments.recording, "--build-dir", f"{copy}/build-{board}",
                      "--search", "2000")
     return test
 
@@ -63,12 +64,12 @@ MUTATIONS = (
      'const std::int32_t greater = less_mask(best, sums[k]);\n    if (greater != 0) {\n      asm volatile("nop");\n    }',
      host_instructions),
     ("ReLU branches on the Cortex-M0+", SCALAR, r"constexpr std::int32_t saturate_relu\([\s\S]*?\n\}", BRANCHING_RELU,
-     image("cortex-m0plus")),
+     image("microbit")),
     ("two weights change places on the Cortex-M4", "firmware/policy/kernel/int16/armv7em.hpp",
      r"half_words\(weight_or_zero\(layer, row, 2 \* p \+ 1\), layer\.weights\[row\]\[2 \* p\]\)",
-     "half_words(layer.weights[row][2 * p], weight_or_zero(layer, row, 2 * p + 1))", image("cortex-m4")),
+     "half_words(layer.weights[row][2 * p], weight_or_zero(layer, row, 2 * p + 1))", image("mps2-an386")),
     ("two rows of int8 weights change places on the Cortex-M4", "firmware/policy/kernel/int8/armv7em.hpp",
-     r"byte\(0, 0\) \| byte\(1, 0\)", "byte(1, 0) | byte(0, 0)", image("cortex-m4")),
+     r"byte\(0, 0\) \| byte\(1, 0\)", "byte(1, 0) | byte(0, 0)", image("mps2-an386")),
 )
 
 
@@ -82,6 +83,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--host", required=True, help="the check program, built for the host")
     parser.add_argument("--recording", required=True)
+    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
     arguments = parser.parse_args()
     good = True
     with tempfile.TemporaryDirectory() as copy:

@@ -22,18 +22,20 @@ void start() {
   control = enable_receive_and_transmit;
 }
 
-bool has_letter() {
-  return (status & status_receive_empty) == 0;
+bool try_take(char& letter) {
+  if ((status & status_receive_empty) != 0) {
+    return false;
+  }
+  letter = static_cast<char>(fifo & 0xFFU);
+  return true;
 }
 
-char take_letter() {
-  return static_cast<char>(fifo & 0xFFU);
-}
-
-void put_letter(char letter) {
-  while ((status & status_transmit_full) != 0) {
+bool try_put(char letter) {
+  if ((status & status_transmit_full) != 0) {
+    return false;
   }
   fifo = static_cast<std::uint8_t>(letter);
+  return true;
 }
 
 }  // namespace striker::bare_metal::uart

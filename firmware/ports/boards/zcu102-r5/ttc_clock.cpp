@@ -1,5 +1,5 @@
-// Ticks from the first triple timer counter (AMD UG1087, module TTC), which runs at the low-power domain's
-// 100 MHz and wraps after 42 s: asked more often than that, it misses nothing.
+// Ticks from the first triple timer counter (AMD UG1087, module TTC). At 100 MHz its 32 bits wrap after 42 s:
+// asked more often than that, it misses nothing.
 #include "firmware/ports/bare_metal/clock.hpp"
 
 namespace striker::bare_metal {
@@ -7,7 +7,7 @@ namespace striker::bare_metal {
 namespace {
 
 constexpr std::uintptr_t base = 0xFF110000;
-constexpr std::uint32_t counts_a_us = 100;
+constexpr std::uint32_t counts_a_us = STRIKER_CLOCK_HZ / 1'000'000;
 constexpr std::uint32_t counts_a_tick = 1000 * counts_a_us;
 constexpr std::uint32_t reset_and_run = 1U << 4U;  // of the counter control: overflow mode, upwards
 

@@ -1,5 +1,5 @@
 #include "firmware/ports/bare_metal/clock.hpp"
-#include "firmware/ports/cortex_m/systick.hpp"
+#include "firmware/ports/bare_metal/cortex_m/systick.hpp"
 
 namespace striker::bare_metal {
 

@@ -31,18 +31,20 @@ void start() {
   registers().control = control_transmit_and_receive;
 }
 
-bool has_letter() {
-  return (registers().state & state_receive_full) != 0;
+bool try_take(char& letter) {
+  if ((registers().state & state_receive_full) == 0) {
+    return false;
+  }
+  letter = static_cast<char>(registers().data & 0xFFU);
+  return true;
 }
 
-char take_letter() {
-  return static_cast<char>(registers().data & 0xFFU);
-}
-
-void put_letter(char letter) {
-  while ((registers().state & state_transmit_full) != 0) {
+bool try_put(char letter) {
+  if ((registers().state & state_transmit_full) != 0) {
+    return false;
   }
   registers().data = static_cast<std::uint8_t>(letter);
+  return true;
 }
 
 }  // namespace striker::bare_metal::uart

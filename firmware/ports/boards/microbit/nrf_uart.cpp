@@ -9,7 +9,8 @@ namespace striker::bare_metal::uart {
 namespace {
 
 volatile std::uint32_t& at(std::uintptr_t offset) {
-  return *reinterpret_cast<volatile std::uint32_t*>(STRIKER_UART + offset);
+  constexpr std::uintptr_t base = 0x40002000;
+  return *reinterpret_cast<volatile std::uint32_t*>(base + offset);
 }
 
 constexpr std::uintptr_t start_receive = 0x000;
@@ -26,6 +27,8 @@ constexpr std::uintptr_t baud_rate = 0x524;
 constexpr std::uint32_t enabled = 4;
 constexpr std::uint32_t one_megabaud = 0x10000000;
 
+bool transmitting = false;
+
 }  // namespace
 
 void start() {
@@ -37,20 +40,24 @@ void start() {
   at(start_transmit) = 1;
 }
 
-bool has_letter() {
-  return at(receive_ready) != 0;
-}
-
-char take_letter() {
+bool try_take(char& letter) {
+  if (at(receive_ready) == 0) {
+    return false;
+  }
   at(receive_ready) = 0;
-  return static_cast<char>(at(receive_data) & 0xFFU);
+  letter = static_cast<char>(at(receive_data) & 0xFFU);
+  return true;
 }
 
-void put_letter(char letter) {
+// `transmit_ready` says that the letter before has gone; the first has none before it.
+bool try_put(char letter) {
+  if (transmitting && at(transmit_ready) == 0) {
+    return false;
+  }
+  transmitting = true;
   at(transmit_ready) = 0;
   at(transmit_data) = static_cast<std::uint8_t>(letter);
-  while (at(transmit_ready) == 0) {
-  }
+  return true;
 }
 
 }  // namespace striker::bare_metal::uart
