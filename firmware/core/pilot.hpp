@@ -115,6 +115,13 @@ class Pilot {
  private:
   static constexpr auto golden_vectors = policy.golden_vectors;
   static constexpr bool one_sided = policy.mirrored;
+  static constexpr auto flips = [] {  // in a mirror along the heading
+    std::array<bool, Shape::inputs> changes{};
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      changes[i] = policy::changes_sign(policy.state[i].element);
+    }
+    return changes;
+  }();
   static constexpr int output_shift = policy.output.shift;
   static constexpr std::size_t look_back = [] {
     std::size_t furthest = 0;
@@ -137,7 +144,7 @@ class Pilot {
   void read_inputs(bool mirror) {
     for (std::size_t i = 0; i < Shape::inputs; ++i) {
       const std::int32_t value = element_of(history_[state[i].decisions_ago], state[i].element);
-      inputs_[i] = mirror && policy::changes_sign(state[i].element) ? -value : value;
+      inputs_[i] = mirror && flips[i] ? -value : value;
     }
   }
 

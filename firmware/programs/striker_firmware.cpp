@@ -13,6 +13,7 @@
 #include "firmware/can/controller_receives.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "firmware/policy/built_in.hpp"
 #include "firmware/ports/linux/bench_peer.hpp"
 #include "firmware/ports/linux/fault_announcer.hpp"
 #include "firmware/ports/linux/real_time.hpp"
@@ -205,13 +206,16 @@ int main(int argc, char** argv) {
   Options options;
   define_bus(app, options);
   define_real_time(app, options);
-  return host::run(app, argc, argv, [&] {
-    host::catch_stop_signals();
-    if (options.clock == "sync") {
-      run_on_sync(options);
-    } else {
-      run_on_own_clock(options);
-    }
-    return 0;
-  });
+  return host::run(
+      app, argc, argv,
+      [&] {
+        host::catch_stop_signals();
+        if (options.clock == "sync") {
+          run_on_sync(options);
+        } else {
+          run_on_own_clock(options);
+        }
+        return 0;
+      },
+      fmt::format("policy {:08x}", policy::built_in.identity));
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/host/files.hpp"
+#include "firmware/host/version.hpp"
 
 namespace striker::linux_port {
 
