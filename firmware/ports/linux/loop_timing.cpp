@@ -66,7 +66,11 @@ std::string summary(const LoopTiming& timing) {
 
 void write_json(const LoopTiming& timing, const std::vector<std::string>& settings,
                 const std::filesystem::path& file) {
-  const nlohmann::ordered_json json = {{"kernel", kernel()},
+  const nlohmann::ordered_json json = {{"program", "striker-firmware"},
+                                       {"version", host::version()},
+                                       {"git_hash", host::git_hash()},
+                                       {"build_type", host::build_type()},
+                                       {"kernel", kernel()},
                                        {"settings", settings},
                                        {"ticks", timing.ticks},
                                        {"missed_periods", timing.missed_periods},
