@@ -50,7 +50,7 @@ void TimedLink::queue(const can::Frame& frame, std::int64_t at_ns) {
   bus_.queue({frame, frame_bits(frame), at_ns});
 }
 
-// To the end of the tick if the controller is not to step before.
+// Runs the bus until the controller is to step, or to the end of the tick.
 void TimedLink::run_until_a_step() {
   while (!step_) {
     const auto frame = bus_.next(now_ns_);

@@ -27,11 +27,11 @@ namespace {
 using namespace striker;
 using namespace striker::sil;
 
-// The way to the controller.
+// The way to the controller: in process or over a socket, and a bus in time around that if time is asked for.
 struct Bus {
-  std::unique_ptr<InProcessLink> in_process;  // either this,
-  std::unique_ptr<ControllerLink> socket;     // or this,
-  std::unique_ptr<TimedLink> timed;           // and this around it if the bus takes time
+  std::unique_ptr<InProcessLink> in_process;
+  std::unique_ptr<ControllerLink> socket;
+  std::unique_ptr<TimedLink> timed;
 
   [[nodiscard]] ControllerLink& untimed() const {
     return in_process ? static_cast<ControllerLink&>(*in_process) : *socket;

@@ -13,6 +13,7 @@ namespace {
 // In the order of policy::StateElement.
 constexpr std::array element_names = {"ball_x_um",    "ball_y_um",  "robot_speed_mm_s", "ball_vx_mm_s",
                                       "ball_vy_mm_s", "ball_angle", "decisions_left"};
+static_assert(element_names.size() == static_cast<std::size_t>(policy::StateElement::decisions_left) + 1);
 
 }  // namespace
 

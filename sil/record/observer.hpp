@@ -29,7 +29,7 @@ struct Snapshot {
 class Observer {
  public:
   virtual ~Observer() = default;
-  // Before anything is sent; a pacer waits here.
+  // Nothing of the tick was sent yet; a pacer waits here.
   virtual void begin_tick() {}
   virtual void end_tick(const Snapshot& /*snapshot*/) {}
   virtual void end_episode() {}

@@ -21,7 +21,7 @@ class WheelDrives {
   // The drives' watchdog holds the torque at 0: no command yet, or none for too long.
   [[nodiscard]] virtual bool cut(std::uint32_t tick) const = 0;
 
-  // The last valid one.
+  // What the last valid command says; before one came, nothing at all: 0.
   [[nodiscard]] virtual const WheelOrders& orders() const = 0;
 
   // Appends the frames that tell these speeds.

@@ -35,7 +35,7 @@ void KickScenario::run(const std::function<bool()>& stop) {
   }
 }
 
-// False if it was stopped.
+// Returns false if it was stopped.
 bool KickScenario::boot(const std::function<bool()>& stop) {
   while (tick_ < boot_ticks) {
     run_tick();
@@ -46,7 +46,7 @@ bool KickScenario::boot(const std::function<bool()>& stop) {
   return true;
 }
 
-// False if it was stopped.
+// Returns false if it was stopped.
 bool KickScenario::play_episode(std::uint64_t episode, const std::function<bool()>& stop) {
   const KickStart start = draw_kick(plan_.seed, episode, plan_.pose);
   snapshot_.episode = episode;
@@ -121,7 +121,7 @@ void KickScenario::move_world() {
   look();
 }
 
-// Whenever the world has changed.
+// Reads the true world; to be called whenever it has changed.
 void KickScenario::look() {
   robot_.pose = world_.robot_pose(seat_->robot());
   robot_.velocity_m_s = world_.robot_velocity_m_s(seat_->robot());
