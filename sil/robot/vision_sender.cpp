@@ -1,4 +1,4 @@
-#include "sil/robot/vision.hpp"
+#include "sil/robot/vision_sender.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -18,13 +18,14 @@ std::int32_t to_binary_angle(double radians) {
 
 }  // namespace
 
-std::array<can::Frame, 2> Vision::picture(const Pose& robot, Vec2 ball_m) {
+std::array<can::Frame, 2> VisionSender::frames(const Picture& picture) {
   const can::VisionPose pose{.frame = frame_,
-                             .x_quarter_mm = to_quarter_mm(robot.x_m),
-                             .y_quarter_mm = to_quarter_mm(robot.y_m),
-                             .heading = to_binary_angle(robot.heading_rad)};
-  const can::VisionBall ball{
-      .frame = frame_, .x_quarter_mm = to_quarter_mm(ball_m.x), .y_quarter_mm = to_quarter_mm(ball_m.y)};
+                             .x_quarter_mm = to_quarter_mm(picture.robot.x_m),
+                             .y_quarter_mm = to_quarter_mm(picture.robot.y_m),
+                             .heading = to_binary_angle(picture.robot.heading_rad)};
+  const can::VisionBall ball{.frame = frame_,
+                             .x_quarter_mm = to_quarter_mm(picture.ball_m.x),
+                             .y_quarter_mm = to_quarter_mm(picture.ball_m.y)};
   frame_ = (frame_ + 1) % 16;
   return {can::send(pose, pose_counter_), can::send(ball, ball_counter_)};
 }

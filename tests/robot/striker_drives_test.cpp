@@ -1,13 +1,13 @@
 // The drives' own watchdog and receive checks.
-#include "sil/robot/wheel_drives.hpp"
+#include "sil/robot/striker_drives.hpp"
 
 #include <gtest/gtest.h>
 
 namespace striker::sil {
 namespace {
 
-TEST(WheelDrives, CutTheTorqueTenMillisecondsAfterTheLastCommand) {
-  WheelDrives drives;
+TEST(StrikerDrives, CutTheTorqueTenMillisecondsAfterTheLastCommand) {
+  StrikerDrives drives;
   can::SendCounter counter;
   EXPECT_TRUE(drives.cut(0)) << "no command yet";
   drives.take(can::send(can::WheelCommand{.left_torque_mNm = 300}, counter), 100);
@@ -17,26 +17,26 @@ TEST(WheelDrives, CutTheTorqueTenMillisecondsAfterTheLastCommand) {
   EXPECT_TRUE(drives.cut(110));
 }
 
-TEST(WheelDrives, ABadCommandIsIgnoredCountedAndFeedsNothing) {
-  WheelDrives drives;
+TEST(StrikerDrives, ABadCommandIsIgnoredCountedAndFeedsNothing) {
+  StrikerDrives drives;
   can::SendCounter counter;
   drives.take(can::send(can::WheelCommand{.left_torque_mNm = 300}, counter), 0);
   can::Frame bad = can::send(can::WheelCommand{.left_torque_mNm = -300}, counter);
   bad.data[3] ^= 0x10U;
   drives.take(bad, 5);
-  EXPECT_EQ(drives.command().left_torque_mNm, 300);
+  EXPECT_EQ(drives.orders()[0].torque_Nm, 300 * 1e-3);
   EXPECT_EQ(drives.ignored(), 1U);
   EXPECT_TRUE(drives.cut(10));
 }
 
-TEST(WheelDrives, AControllerThatComesBackMayCountFromAnywhere) {
+TEST(StrikerDrives, AControllerThatComesBackMayCountFromAnywhere) {
   for (std::uint8_t start = 0; start < 16; ++start) {
-    WheelDrives drives;
+    StrikerDrives drives;
     can::SendCounter counter;
     drives.take(can::send(can::WheelCommand{}, counter), 0);
     counter.next = start;
     drives.take(can::send(can::WheelCommand{.left_torque_mNm = 7}, counter), 50);
-    EXPECT_EQ(drives.command().left_torque_mNm, 7) << int{start};
+    EXPECT_EQ(drives.orders()[0].torque_Nm, 7 * 1e-3) << int{start};
   }
 }
 
