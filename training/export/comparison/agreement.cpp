@@ -1,4 +1,4 @@
-#include "training/export/agreement.hpp"
+#include "training/export/comparison/agreement.hpp"
 
 #include <fmt/format.h>
 
@@ -42,13 +42,13 @@ bool read_row(std::string_view line, Row& row, int actions) {
 }  // namespace
 
 Agreement agreement(const Parameters& parameters, const StateInputs& inputs,
-                    std::span<const Decision> decisions) {
+                    std::span<const TakenDecision> decisions) {
   Actor actor(parameters.shape());
   Agreement result;
   std::size_t same = 0;
   std::size_t clear_same = 0;
   double regret = 0.0;
-  for (const Decision& decision : decisions) {
+  for (const TakenDecision& decision : decisions) {
     Eigen::VectorXf q = actor.values(parameters, features_of(inputs, decision.state));
     const int best = greedy_action(q);
     const float best_q = q(best);
@@ -70,7 +70,7 @@ Agreement agreement(const Parameters& parameters, const StateInputs& inputs,
   return result;
 }
 
-std::vector<Decision> load_decisions(const std::filesystem::path& file, const Shape& shape) {
+std::vector<TakenDecision> load_decisions(const std::filesystem::path& file, const Shape& shape) {
   std::istringstream stream(host::read_file(file));
   std::string line;
   Row row(first_state_column + static_cast<std::size_t>(shape.inputs));
@@ -81,7 +81,7 @@ std::vector<Decision> load_decisions(const std::filesystem::path& file, const Sh
                     "and then a column for each of the network's {} inputs",
                     file.string(), header_start, shape.inputs));
   }
-  std::vector<Decision> decisions;
+  std::vector<TakenDecision> decisions;
   for (int number = 2; std::getline(stream, line); ++number) {
     if (!read_row(line, row, shape.actions)) {
       throw std::runtime_error(

@@ -1,5 +1,5 @@
 // Agreement and regret against the float network, and the file of decisions.
-#include "training/export/agreement.hpp"
+#include "training/export/comparison/agreement.hpp"
 
 #include "tests/training/fixtures.hpp"
 
@@ -15,7 +15,7 @@ TEST(Agreement, TheNetworksOwnChoicesAgree) {
   const Parameters parameters = some_parameters(1);
   Actor actor(parameters.shape());
   std::mt19937 random(1);
-  std::vector<Decision> decisions;
+  std::vector<TakenDecision> decisions;
   for (int i = 0; i < 1000; ++i) {
     const RawState state = some_state(random);
     decisions.push_back({state, actor.choose(parameters, features_of(inputs, state))});
@@ -32,7 +32,7 @@ TEST(Agreement, CountsGapAndRegret) {
   Parameters parameters({});
   parameters.biases(2) << 1.0F, 0.99F, 0.5F;
   const auto of = [&](const std::vector<int>& taken) {
-    std::vector<Decision> decisions;
+    std::vector<TakenDecision> decisions;
     decisions.reserve(taken.size());
     for (const int action : taken) {
       decisions.push_back({RawState(inputs.size()), action});

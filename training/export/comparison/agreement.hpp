@@ -10,7 +10,7 @@
 
 namespace striker::training {
 
-struct Decision {
+struct TakenDecision {
   RawState state;
   int action = 0;
 };
@@ -27,11 +27,12 @@ struct Agreement {
 };
 
 [[nodiscard]] Agreement agreement(const Parameters& parameters, const StateInputs& inputs,
-                                  std::span<const Decision> decisions);
+                                  std::span<const TakenDecision> decisions);
 
 // The decisions before contact of a file that striker-sil writes: CSV, whole numbers, with the header
 //   episode,decision,before_contact,action,
 // and then a column for each input of the network. Throws std::runtime_error that names file and line.
-[[nodiscard]] std::vector<Decision> load_decisions(const std::filesystem::path& file, const Shape& shape);
+[[nodiscard]] std::vector<TakenDecision> load_decisions(const std::filesystem::path& file,
+                                                        const Shape& shape);
 
 }  // namespace striker::training

@@ -1,11 +1,13 @@
 // The reward that an integer network loses against the float one, in paired episodes.
-#include "training/export/reward_difference.hpp"
+#include "training/export/comparison/reward_difference.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "tests/training/fixtures.hpp"
 #include "training/export/quantise.hpp"
+#include "training/task/environments.hpp"
+#include "training/task/episode_numbers.hpp"
 
 namespace striker::training {
 namespace {
@@ -28,13 +30,12 @@ IntegerNetwork integer(const Parameters& parameters) {
 }
 
 std::vector<double> rewards_of(int action) {
-  KickEnv env({.world = World::full});
+  KickEnvironment env({.physics = Physics::full});
   std::vector<double> rewards;
   for (std::uint64_t i = 0; i < episodes; ++i) {
-    rewards.push_back(
-        play(env, reward_difference_seed, first_reward_difference_episode + i, [action](const KickEnv&) {
-          return action;
-        }).reward);
+    rewards.push_back(play(env, reward_difference_seed, first_reward_difference_episode + i,
+                           [action](const KickEnvironment&) { return action; })
+                          .reward);
   }
   return rewards;
 }
