@@ -85,12 +85,13 @@ struct Attribute {
 };
 
 // The first three have the names and meanings of Vector's interaction layer; times in ms.
-constexpr std::array<Attribute, 6> attributes = {{
+constexpr std::array<Attribute, 7> attributes = {{
     {"GenMsgCycleTime", 0, [](const MessageInfo& info) { return std::int64_t{info.period_ms}; }},
     {"GenMsgDelayTime", 0, [](const MessageInfo& info) { return std::int64_t{info.traffic.distance_ms}; }},
     {"GenMsgTimeout", 0, [](const MessageInfo& info) { return std::int64_t{info.timeout_ms}; }},
     {"Burst", 1, [](const MessageInfo& info) { return std::int64_t{info.traffic.burst}; }},
     {"Deadline", 0, [](const MessageInfo& info) { return std::int64_t{info.traffic.deadline_ms}; }},
+    {"Awaited", 0, [](const MessageInfo& info) { return std::int64_t{info.traffic.awaited ? 1 : 0}; }},
     {"E2EDataId", 0, [](const MessageInfo& info) { return std::int64_t{info.data_id}; }},
 }};
 

@@ -77,6 +77,7 @@ struct Traffic {
   std::uint16_t distance_ms = 0;  // shortest time from one frame to the next; 0: the period
   std::uint8_t burst = 1;         // burst - 1 frames more than one a period may come, as on changes
   std::uint16_t deadline_ms = 0;  // from queueing to reception; 0: the period, or the distance of events
+  bool awaited = false;           // a peer waits for it, however late: no deadline, and no part of a budget
 };
 
 constexpr Traffic on_events(std::uint16_t distance_ms) {
@@ -85,6 +86,10 @@ constexpr Traffic on_events(std::uint16_t distance_ms) {
 
 constexpr Traffic on_changes(std::uint16_t distance_ms, std::uint8_t burst) {
   return {.distance_ms = distance_ms, .burst = burst};
+}
+
+constexpr Traffic awaited_by_its_receiver() {
+  return {.awaited = true};
 }
 
 constexpr Traffic due_within(std::uint16_t deadline_ms) {

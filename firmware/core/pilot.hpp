@@ -95,6 +95,7 @@ class Pilot {
     const bool mirror = one_sided && now.ball_um.y < 0;
     read_inputs(mirror);
     const auto q = policy::infer<policy>(inputs_);
+    action_ = q.action;
     set_point_ = {set_points[q.action].left_mm_s, set_points[q.action].right_mm_s};
     if (mirror) {
       std::swap(set_point_.left_mm_s, set_point_.right_mm_s);
@@ -108,6 +109,10 @@ class Pilot {
 
   // Of the last decision; 0 before the first.
   [[nodiscard]] const WheelSpeeds& set_point() const { return set_point_; }
+
+  // Since the reset; and the last one's action.
+  [[nodiscard]] std::uint32_t decisions() const { return decisions_; }
+  [[nodiscard]] std::uint8_t action() const { return action_; }
 
   // What the network read in the last decision, for telemetry and tests.
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
@@ -160,6 +165,7 @@ class Pilot {
   SelfTest self_test_ = SelfTest::running;
   std::size_t self_tested_ = 0;  // golden vectors that passed
   std::uint32_t decisions_ = 0;  // since the reset
+  std::uint8_t action_ = 0;
   WheelSpeeds set_point_;
   Inputs inputs_{};
   std::array<RelativeState, look_back + 1> history_{};  // of the decisions, the newest first

@@ -6,8 +6,6 @@
 
 namespace striker::host {
 
-inline constexpr std::int64_t tick_period_ns = 1'000'000;  // the controller's tick
-
 class AbsoluteClock {
  public:
   virtual ~AbsoluteClock() = default;
@@ -27,7 +25,7 @@ class MonotonicClock final : public AbsoluteClock {
 // their grid.
 class PeriodicClock {
  public:
-  explicit PeriodicClock(AbsoluteClock& clock, std::int64_t period_ns = tick_period_ns)
+  PeriodicClock(AbsoluteClock& clock, std::int64_t period_ns)
       : clock_(&clock), period_ns_(period_ns), next_ns_(clock.now_ns()) {}
 
   struct Wake {

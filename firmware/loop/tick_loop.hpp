@@ -2,7 +2,7 @@
 // lockstep, under test and in a simulator it is this text.
 //
 //   ClockTicks ticks(clock, {...});  or  SyncTicks ticks;      // when, and on which frames
-//   TickLoop<Node, Bus, Ticks> loop(robot, bus, ticks);
+//   TickLoop<Node, Bus&, Ticks&> loop(robot, bus, ticks);
 //   while (...) loop.turn();
 //   loop.stop();
 //
@@ -11,6 +11,8 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 #include "firmware/can/bus_health.hpp"
 #include "firmware/can/frame_list.hpp"
@@ -19,30 +21,30 @@
 
 namespace striker::loop {
 
-// A source of ticks has
+// Bus and ticks are the loop's own, or references to what outlives it. A source of ticks has
 //   next(bus)    std::optional<Tick>: the next one, or nothing yet
 //   end(sent)    called after the step with its frames, before they are sent; may add to them
 //   done()       called when they are sent
 template <class Node, class BusType, class Ticks>
 class TickLoop {
  public:
-  constexpr TickLoop(const core::RobotProfile& robot, BusType& bus, Ticks& ticks)
-      : bus_(&bus), ticks_(&ticks), node_(robot) {}
+  constexpr TickLoop(const core::RobotProfile& robot, BusType bus, Ticks ticks)
+      : bus_(std::forward<BusType>(bus)), ticks_(std::forward<Ticks>(ticks)), node_(robot) {}
 
   // One tick. False if there was none yet.
   bool turn() {
-    auto tick = ticks_->next(*bus_);
+    auto tick = ticks_.next(bus_);
     if (!tick) {
       return false;
     }
-    if (tick->port_fault == core::Fault::none && bus_->health() == can::BusHealth::bus_off) {
+    if (tick->port_fault == core::Fault::none && bus_.health() == can::BusHealth::bus_off) {
       tick->port_fault = core::Fault::bus_off;
     }
     last_tick_ = tick->number;
     node_.step(*tick, frames_);
-    ticks_->end(frames_);
+    ticks_.end(frames_);
     send();
-    ticks_->done();
+    ticks_.done();
     return true;
   }
 
@@ -53,16 +55,17 @@ class TickLoop {
   }
 
   [[nodiscard]] const Node& node() const { return node_; }
+  [[nodiscard]] std::remove_reference_t<BusType>& bus() { return bus_; }
   [[nodiscard]] std::uint64_t dropped_frames() const { return dropped_frames_; }
 
  private:
   void send() {
     const auto frames = frames_.frames();
-    dropped_frames_ += frames.size() - bus_->try_send(frames);
+    dropped_frames_ += frames.size() - bus_.try_send(frames);
   }
 
-  BusType* bus_;
-  Ticks* ticks_;
+  BusType bus_;
+  Ticks ticks_;
   Node node_;
   can::FrameList frames_;
   std::uint32_t last_tick_ = 0;

@@ -163,6 +163,9 @@ std::vector<BusMessage> read_dbc(const std::filesystem::path& file, std::int64_t
   const auto fallback_ms = static_cast<double>(default_distance_ms);
   std::vector<BusMessage> messages;
   for (const auto& [id, message] : reader.dbc().messages) {
+    if (attribute(reader.dbc(), message, "Awaited") != 0.0) {
+      continue;
+    }
     const Traffic traffic{.period_ms = attribute(reader.dbc(), message, "GenMsgCycleTime"),
                           .distance_ms = attribute(reader.dbc(), message, "GenMsgDelayTime"),
                           .deadline_ms = attribute(reader.dbc(), message, "Deadline"),

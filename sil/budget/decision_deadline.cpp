@@ -45,7 +45,7 @@ std::optional<std::int64_t> sync_lateness_ns(std::vector<BusMessage> messages,
   }
   // Of the controller's frames FaultReport alone goes before Sync; it answers an earlier Sync, up to a tick
   // late.
-  set_jitter(messages, {.controller_ns = host::tick_period_ns, .others_ns = others_ns});
+  set_jitter(messages, {.controller_ns = loop::tick_period_ns, .others_ns = others_ns});
   return response_times(messages, assumptions)[*sync].response_ns;
 }
 

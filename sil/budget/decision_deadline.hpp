@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/host/periodic_clock.hpp"
+#include "firmware/loop/tick.hpp"
 #include "sil/budget/response_time.hpp"
 
 namespace striker::sil {
@@ -25,7 +25,7 @@ struct ControllerTime {
 
 struct DecisionDeadline {
   std::int64_t picture_ns = 0;
-  std::int64_t phase_ns = host::tick_period_ns;
+  std::int64_t phase_ns = loop::tick_period_ns;
   ControllerTime controller;
   std::int64_t command_ns = 0;
 

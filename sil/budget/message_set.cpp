@@ -17,6 +17,9 @@ std::vector<BusMessage> table_messages() {
   can::for_each_layout([&](const auto& message) {
     const can::MessageInfo& info = message.info;
     const can::Traffic& traffic = info.traffic;
+    if (traffic.awaited) {
+      return;
+    }
     const std::int64_t period_ms = info.period_ms != 0 ? info.period_ms : traffic.distance_ms;
     const std::int64_t distance_ms = traffic.distance_ms != 0 ? traffic.distance_ms : info.period_ms;
     const std::int64_t deadline_ms = traffic.deadline_ms != 0 ? traffic.deadline_ms : period_ms;

@@ -3,14 +3,14 @@
 namespace striker::sil {
 
 void InProcessLink::send(std::uint32_t, std::span<const can::Frame> frames) {
-  outputs_.clear();
-  for (const can::Frame& frame : frames) {
-    clock_.take(frame, outputs_);
+  loop_.bus().put(frames);
+  while (loop_.turn()) {
   }
 }
 
 void InProcessLink::collect(std::uint32_t, std::vector<can::Frame>& answer) {
-  answer.insert(answer.end(), outputs_.frames().begin(), outputs_.frames().end());
+  const auto sent = loop_.bus().sent();
+  answer.insert(answer.end(), sent.begin(), sent.end());
 }
 
 }  // namespace striker::sil

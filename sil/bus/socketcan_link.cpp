@@ -61,11 +61,11 @@ bool LockstepLink::await_answer(std::uint32_t tick, microseconds timeout, std::v
   while (true) {
     while (const auto frame = socket_.receive()) {
       answer.push_back(*frame);
-      const EndOfTick end = end_of_tick(*frame, tick);
-      if (end == EndOfTick::of_this_tick) {
+      const AnswerEnd end = end_of_answer(*frame, tick);
+      if (end == AnswerEnd::of_this_tick) {
         return true;
       }
-      if (end == EndOfTick::of_another_tick) {
+      if (end == AnswerEnd::of_another_tick) {
         answer.resize(begin);
       }
     }

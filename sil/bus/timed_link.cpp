@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "firmware/can/codec.hpp"
-#include "firmware/host/periodic_clock.hpp"
+#include "firmware/loop/tick.hpp"
 #include "sil/bus/controller_messages.hpp"
 #include "sil/bus/frame_bits.hpp"
 
@@ -26,14 +26,14 @@ void TimedLink::send(std::uint32_t tick, std::span<const can::Frame> frames) {
   arrived_.swap(to_simulator_);
   to_simulator_.clear();
   seen_.clear();
-  const std::int64_t begin_ns = tick * host::tick_period_ns;
+  const std::int64_t begin_ns = tick * loop::tick_period_ns;
   for (const can::Frame& frame : frames) {
     const bool picture = can::is<can::VisionPose>(frame) || can::is<can::VisionBall>(frame);
     const std::int64_t at_ns = begin_ns + (picture ? options_.vision_phase_ns : 0);
     picture_ns_ = picture ? at_ns : picture_ns_;
     queue(frame, at_ns);
   }
-  now_ns_ = begin_ns + host::tick_period_ns;
+  now_ns_ = begin_ns + loop::tick_period_ns;
   run_until_a_step();
 }
 
@@ -92,6 +92,10 @@ void TimedLink::end_step() {
   reply_.clear();
   controller_->collect(step_->tick, reply_);
   for (const can::Frame& frame : reply_) {
+    // It ends a simulator's tick, not a bus's: it takes no time there.
+    if (can::is<can::EndOfTick>(frame)) {
+      continue;
+    }
     queue(frame, step_->sync_ns + options_.step_ns);
   }
   if (std::any_of(reply_.begin(), reply_.end(), answers_a_picture)) {

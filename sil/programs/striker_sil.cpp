@@ -71,7 +71,8 @@ Observers make_observers(const KickOptions& options, const Bus& bus) {
     observers.push_back(std::make_unique<CandumpLog>(options.log));
   }
   if (!options.decisions.empty()) {
-    observers.push_back(std::make_unique<DecisionCsv>(options.decisions, bus.in_process->controller()));
+    observers.push_back(
+        std::make_unique<DecisionCsv>(options.decisions, bus.in_process->controller().pilot()));
   }
   observers.push_back(std::make_unique<EpisodeProgress>(options.episodes));
   return observers;

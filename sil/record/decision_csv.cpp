@@ -2,43 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <span>
 #include <string>
 
 namespace striker::sil {
 
-namespace {
-
-// In the order of policy::StateElement.
-constexpr std::array element_names = {"ball_x_um",    "ball_y_um",  "robot_speed_mm_s", "ball_vx_mm_s",
-                                      "ball_vy_mm_s", "ball_angle", "decisions_left"};
-static_assert(element_names.size() == static_cast<std::size_t>(policy::StateElement::decisions_left) + 1);
-
-}  // namespace
-
-DecisionCsv::DecisionCsv(const std::filesystem::path& file, const core::Controller& controller)
-    : file_(file), controller_(&controller) {
+DecisionCsv::DecisionCsv(const std::filesystem::path& file, const loop::BuiltInPilot& pilot)
+    : file_(file), pilot_(&pilot) {
   std::string header = "episode,decision,before_contact,action";
-  for (const auto& [element, ago] : core::policy_inputs()) {
-    header += fmt::format(",{}", element_names.at(static_cast<std::size_t>(element)));
+  for (const auto& [element, ago] : loop::BuiltInPilot::state) {
+    header += fmt::format(",{}", policy::row_of(element).column);
     header += ago > 0 ? fmt::format("@{}", ago) : "";
   }
   file_.write(header + "\n");
 }
 
 void DecisionCsv::end_tick(const Snapshot& snapshot) {
-  const core::DecisionRecord& decision = controller_->last_decision();
-  if (!snapshot.deciding || decision.number == last_number_) {
+  const std::uint32_t decisions = pilot_->decisions();
+  if (!snapshot.deciding || decisions == last_decisions_) {
     return;
   }
-  last_number_ = decision.number;
-  if (decision.number == 0) {
+  last_decisions_ = decisions;
+  if (decisions == 0) {
     return;
   }
-  const auto inputs = std::span(decision.inputs).first(core::policy_inputs().size());
-  file_.write(fmt::format("{},{},{:d},{},{}\n", snapshot.episode, decision.number - 1, !snapshot.contact,
-                          decision.action, fmt::join(inputs, ",")));
+  file_.write(fmt::format("{},{},{:d},{},{}\n", snapshot.episode, decisions - 1, !snapshot.contact,
+                          pilot_->action(), fmt::join(pilot_->inputs(), ",")));
 }
 
 }  // namespace striker::sil

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "firmware/core/controller.hpp"
 #include "firmware/host/atomic_file.hpp"
+#include "firmware/loop/built_in_node.hpp"
 #include "sil/record/observer.hpp"
 
 namespace striker::sil {
@@ -15,8 +15,8 @@ namespace striker::sil {
 // Written to a temporary file, renamed at the end of the run. Throws std::runtime_error that names the file.
 class DecisionCsv final : public Observer {
  public:
-  // `controller` outlives it.
-  DecisionCsv(const std::filesystem::path& file, const core::Controller& controller);
+  // `pilot` outlives it.
+  DecisionCsv(const std::filesystem::path& file, const loop::BuiltInPilot& pilot);
 
   // A row where the controller has decided since the last tick.
   void end_tick(const Snapshot& snapshot) override;
@@ -24,8 +24,8 @@ class DecisionCsv final : public Observer {
 
  private:
   host::AtomicFile file_;
-  const core::Controller* controller_;
-  std::uint32_t last_number_ = 0;
+  const loop::BuiltInPilot* pilot_;
+  std::uint32_t last_decisions_ = 0;
 };
 
 }  // namespace striker::sil

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/host/periodic_clock.hpp"
+#include "firmware/loop/tick.hpp"
 #include "sil/record/observer.hpp"
 
 namespace striker::sil {
@@ -16,7 +17,7 @@ class Pacer final : public Observer {
 
  private:
   host::MonotonicClock monotonic_;
-  host::PeriodicClock clock_{monotonic_};
+  host::PeriodicClock clock_{monotonic_, loop::tick_period_ns};
   std::int64_t ticks_ = 0;
   std::uint64_t missed_ = 0;
   std::int64_t lateness_max_ns_ = 0;

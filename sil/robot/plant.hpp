@@ -14,12 +14,12 @@
 #include <optional>
 #include <string_view>
 
-#include "firmware/host/periodic_clock.hpp"
+#include "firmware/core/tick.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {
 
-inline constexpr double tick_s = static_cast<double>(host::tick_period_ns) / 1e9;
+inline constexpr double tick_s = core::tick_us / 1e6;
 
 enum class PlantKind { servo, drive };
 

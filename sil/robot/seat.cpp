@@ -1,5 +1,7 @@
 #include "sil/robot/seat.hpp"
 
+#include "firmware/loop/tick.hpp"
+
 namespace striker::sil {
 
 Seat::Seat(const SeatParts& parts) : parts_(parts) {}
@@ -20,7 +22,7 @@ void Seat::begin_tick(std::uint32_t tick) {
     queue(can::send(can::Sync{.tick = static_cast<std::int32_t>(tick)}, sync_counter_));
   }
   for (const can::Frame& frame : queued_) {
-    traffic_.push_back({frame, tick * host::tick_period_ns});
+    traffic_.push_back({frame, tick * loop::tick_period_ns});
   }
   parts_.link.send(tick, queued_);
   queued_.clear();
@@ -30,7 +32,7 @@ void Seat::end_tick(std::uint32_t tick) {
   parts_.link.collect(tick, answer_);
   for (const can::Frame& frame : answer_) {
     parts_.drives.take(frame, tick);
-    traffic_.push_back({frame, tick * host::tick_period_ns});
+    traffic_.push_back({frame, tick * loop::tick_period_ns});
   }
 }
 

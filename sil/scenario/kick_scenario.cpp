@@ -1,6 +1,6 @@
 #include "sil/scenario/kick_scenario.hpp"
 
-#include "firmware/core/controller.hpp"
+#include "firmware/core/tick.hpp"
 
 namespace striker::sil {
 

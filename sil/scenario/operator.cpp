@@ -14,7 +14,7 @@ void Operator::hear(std::span<const can::Frame> frames) {
     can::Version version;
     can::ReceiveCounter any;
     if (can::is<can::Status>(frame) && can::receive(frame, any, status) == can::Verdict::accepted) {
-      faulty_ = status.state == static_cast<std::int32_t>(can::State::fault);
+      faulty_ = status.state == static_cast<std::int32_t>(core::State::fault);
     } else if (can::is<can::Version>(frame) && can::unpack(frame, version) == can::Verdict::accepted) {
       policy_ = fmt::format("{:04x}{:04x}", version.policy_high, version.policy_low);
     }

@@ -1,6 +1,7 @@
 // Size, mass and drive limits of the AI Soccer robots (a box on two driven wheels and two skids).
 #pragma once
 
+#include "firmware/core/robot_profile.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {
@@ -12,25 +13,35 @@ struct RobotSpec {
   double max_wheel_torque_Nm;  // each
 };
 
+// In SI units what the firmware's description of the robot says.
+[[nodiscard]] constexpr RobotSpec spec_of(const core::RobotDescription& robot) {
+  return {.body_mass_kg = robot.body_mass_g / 1e3,
+          .wheel_mass_kg = robot.wheel_mass_g / 1e3,
+          .max_rim_speed_m_s = robot.top_rim_speed_mm_s / 1e3,
+          .max_wheel_torque_Nm = robot.torque_limit_mNm / 1e3};
+}
+
 [[nodiscard]] constexpr RobotSpec robot_spec(Role role) {
   switch (role) {
     case Role::goalkeeper:
-      return {
-          .body_mass_kg = 2.5, .wheel_mass_kg = 0.15, .max_rim_speed_m_s = 1.80, .max_wheel_torque_Nm = 0.8};
+      return spec_of(core::goalkeeper);
     case Role::defender:
-      return {
-          .body_mass_kg = 2.0, .wheel_mass_kg = 0.10, .max_rim_speed_m_s = 2.10, .max_wheel_torque_Nm = 1.2};
+      return spec_of(core::defender);
     case Role::forward:
       break;
   }
-  return {.body_mass_kg = 1.5, .wheel_mass_kg = 0.10, .max_rim_speed_m_s = 2.55, .max_wheel_torque_Nm = 0.4};
+  return spec_of(core::forward);
 }
+
+static_assert(robot_spec(Role::forward).max_wheel_torque_Nm == 0.4 &&
+              robot_spec(Role::forward).max_rim_speed_m_s == 2.55 &&
+              robot_spec(Role::forward).body_mass_kg == 1.5);
 
 inline constexpr double robot_side_m = 0.15;  // length and width
 inline constexpr double robot_bottom_m = 0.002;
 inline constexpr double robot_top_m = 0.090;
 inline constexpr double centre_of_mass_height_m = 0.015;
-inline constexpr double wheel_radius_m = 0.04;
+inline constexpr double wheel_radius_m = core::forward.wheel_radius_um / 1e6;  // of all roles
 inline constexpr double wheel_thickness_m = 0.004;
 inline constexpr double axle_length_m = 0.14;  // between the wheels' centres
 inline constexpr double skid_radius_m = 0.002;

@@ -24,10 +24,10 @@ TEST(EndOfTick, IsTheLastFrameOfEveryAnswerAndNoOther) {
     const auto answer = answer_to(link, tick, counter);
     ASSERT_FALSE(answer.empty());
     for (std::size_t i = 0; i + 1 < answer.size(); ++i) {
-      ASSERT_EQ(end_of_tick(answer[i], tick), EndOfTick::no) << tick;
+      ASSERT_EQ(end_of_answer(answer[i], tick), AnswerEnd::no) << tick;
     }
-    ASSERT_EQ(end_of_tick(answer.back(), tick), EndOfTick::of_this_tick) << tick;
-    ASSERT_EQ(end_of_tick(answer.back(), tick + 1), EndOfTick::of_another_tick) << tick;
+    ASSERT_EQ(end_of_answer(answer.back(), tick), AnswerEnd::of_this_tick) << tick;
+    ASSERT_EQ(end_of_answer(answer.back(), tick + 1), AnswerEnd::of_another_tick) << tick;
   }
 }
 
@@ -36,7 +36,7 @@ TEST(EndOfTick, AMalformedOneEndsNoTick) {
   can::SendCounter counter;
   can::Frame last = answer_to(link, 0, counter).back();
   last.length = 1;
-  EXPECT_NE(end_of_tick(last, 0), EndOfTick::of_this_tick);
+  EXPECT_NE(end_of_answer(last, 0), AnswerEnd::of_this_tick);
 }
 
 }  // namespace

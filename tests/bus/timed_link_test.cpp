@@ -16,7 +16,7 @@ struct Played {
   std::vector<StampedFrame> bus;
   std::vector<KickOutcome> outcomes;
   TimedBusReport report;
-  can::Fault fault = can::Fault::none;
+  core::Fault fault = core::Fault::none;
 };
 
 Played play(const KickPlan& plan, const TimedBusOptions& bus, PlantKind plant = PlantKind::drive) {
@@ -25,7 +25,7 @@ Played play(const KickPlan& plan, const TimedBusOptions& bus, PlantKind plant = 
   TimedLink link(controller, bus);
   BusRecord record;
   AtEndOfTick first_fault([&](const Snapshot& snapshot) {
-    if (snapshot.deciding && played.fault == can::Fault::none) {
+    if (snapshot.deciding && played.fault == core::Fault::none) {
       played.fault = controller.controller().fault();
     }
   });
@@ -92,7 +92,7 @@ TEST(TimedLink, PriorityOrdersEveryTick) {
 TEST(TimedLink, TheControllerStillKicksAt1Mbit) {
   const Played played = play({.seed = 1, .episodes = 20}, {});
   EXPECT_EQ(played.report.replaced, 0U);
-  EXPECT_EQ(played.fault, can::Fault::none);
+  EXPECT_EQ(played.fault, core::Fault::none);
   EXPECT_GT(played.report.decisions, 20U * 40U);
   double reward = 0.0;
   for (const KickOutcome& outcome : played.outcomes) {
@@ -134,7 +134,7 @@ TEST(TimedLink, NoDecisionIsLaterThanItsBound) {
     RecordProperty("bound_us_at_bit_ns_" + std::to_string(bit_ns), std::to_string(bound_ns / 1000));
     RecordProperty("latest_us_at_bit_ns_" + std::to_string(bit_ns), std::to_string(latest_ns / 1000));
     EXPECT_GT(decisions, 25U * 2U * 38U);
-    EXPECT_GT(latest_ns, host::tick_period_ns + 2 * worst_case_frame_bits(6) * bit_ns);
+    EXPECT_GT(latest_ns, loop::tick_period_ns + 2 * worst_case_frame_bits(6) * bit_ns);
   }
 }
 

@@ -115,8 +115,8 @@ void hash_frame(proof::Fnv1a& hash, const can::Frame& frame) {
 void replay(images::Recording& recording) {
   images::FrameQueue bus;
   loop::SyncTicks sync;
-  loop::TickLoop<loop::BuiltInNode, images::FrameQueue, loop::SyncTicks> loop(loop::built_in_robot, bus,
-                                                                              sync);
+  loop::TickLoop<loop::BuiltInNode, images::FrameQueue&, loop::SyncTicks&> loop(loop::built_in_robot, bus,
+                                                                                sync);
   proof::Fnv1a hash;
   images::RecordedFrame recorded;
   std::int64_t ticks = 0;

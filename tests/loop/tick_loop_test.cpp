@@ -124,7 +124,7 @@ class BoardLoop : public testing::Test {
   World world_;
   Bus bus_;
   Ticks ticks_{clock_, {.frames_per_tick = 24, .overrun_limit = 50}};
-  TickLoop<BuiltInNode, Bus, Ticks> loop_{built_in_robot, bus_, ticks_};
+  TickLoop<BuiltInNode, Bus&, Ticks&> loop_{built_in_robot, bus_, ticks_};
   std::uint32_t tick_ = 0;
 };
 
@@ -224,7 +224,7 @@ class Lockstep : public testing::Test {
   World world_;
   Bus bus_;
   SyncTicks ticks_;
-  TickLoop<BuiltInNode, Bus, SyncTicks> loop_{built_in_robot, bus_, ticks_};
+  TickLoop<BuiltInNode, Bus&, SyncTicks&> loop_{built_in_robot, bus_, ticks_};
 };
 
 TEST_F(Lockstep, EverySyncIsAnsweredAndTheAnswerEndsWithItsTick) {
@@ -276,11 +276,12 @@ TEST(TickLoop, LockstepAndTheClockGiveTheSameAnswers) {
   LogicalClock clock;
   MemoryBus<std::int32_t> clocked_bus;
   ClockTicks<LogicalClock> clock_ticks(clock, {.frames_per_tick = 24, .overrun_limit = 50});
-  TickLoop<BuiltInNode, MemoryBus<std::int32_t>, ClockTicks<LogicalClock>> clocked(built_in_robot,
-                                                                                   clocked_bus, clock_ticks);
+  TickLoop<BuiltInNode, MemoryBus<std::int32_t>&, ClockTicks<LogicalClock>&> clocked(
+      built_in_robot, clocked_bus, clock_ticks);
   MemoryBus<std::int64_t> sync_bus;
   SyncTicks sync_ticks;
-  TickLoop<BuiltInNode, MemoryBus<std::int64_t>, SyncTicks> synchronous(built_in_robot, sync_bus, sync_ticks);
+  TickLoop<BuiltInNode, MemoryBus<std::int64_t>&, SyncTicks&> synchronous(built_in_robot, sync_bus,
+                                                                          sync_ticks);
   World world;
   sync_bus.waiting = {world.sync(0)};
   synchronous.turn();

@@ -186,7 +186,7 @@ TEST(Seat, TenSideBySideAnswerAsEachWouldAlone) {
   for (std::uint64_t episode = 0; episode < 10; ++episode) {
     const std::array alone = {std::make_unique<Player>(episode)};
     play(alone);
-    EXPECT_EQ(alone[0]->controller.controller().state(), can::State::active) << episode;
+    EXPECT_EQ(alone[0]->controller.controller().state(), core::State::active) << episode;
     EXPECT_GT(alone[0]->answers.size(), play_ticks);
     EXPECT_TRUE(alone[0]->answers == ten[episode]->answers) << episode;
   }

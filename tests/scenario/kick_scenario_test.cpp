@@ -63,19 +63,19 @@ TEST(KickScenario, AnEpisodeAloneIsTheEpisodeAfterManyOthers) {
 
 // Every wheel command of a run, told apart from the state that the status frames report.
 TEST(KickScenario, TorqueOnlyWhileActive) {
-  auto state = can::State::boot;
+  auto state = core::State::boot;
   std::size_t driven = 0;
   for (const auto& [frame, received_ns] : bus_of(PlantKind::drive, {.episodes = 5})) {
     can::Status status;
     can::WheelCommand command;
     can::ReceiveCounter any;
     if (can::is<can::Status>(frame) && can::receive(frame, any, status) == can::Verdict::accepted) {
-      state = static_cast<can::State>(status.state);
+      state = static_cast<core::State>(status.state);
     } else if (can::is<can::WheelCommand>(frame) &&
                can::receive(frame, any, command) == can::Verdict::accepted &&
                (command.left_torque_mNm != 0 || command.right_torque_mNm != 0)) {
       ++driven;
-      ASSERT_EQ(state, can::State::active);
+      ASSERT_EQ(state, core::State::active);
     }
   }
   EXPECT_GT(driven, 100U);
@@ -90,7 +90,7 @@ TEST(KickScenario, StopsBetweenTicksAndKeepsWhatWasDone) {
   });
   EXPECT_EQ(outcomes.size(), 2U);
   EXPECT_EQ(ticks, 50 + 2 * 2200 + 700 + 1) << "a tick more, to disarm";
-  EXPECT_EQ(link.controller().state(), can::State::standby);
+  EXPECT_EQ(link.controller().state(), core::State::standby);
 }
 
 }  // namespace

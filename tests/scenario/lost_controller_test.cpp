@@ -20,7 +20,7 @@ TEST(LostController, TheDrivesCutWithinTenMillisecondsAndOnlyAnArmBringsTorqueBa
   FaultyLink link(controller, {{.from = lost, .until = back}}, [&] { controller = {}; });
   KickRig rig(link);
   std::vector<bool> cut;
-  std::vector<can::State> states;
+  std::vector<core::State> states;
   AtEndOfTick watch([&](const Snapshot& snapshot) {
     cut.push_back(rig.drives.cut(snapshot.tick));
     states.push_back(controller.controller().state());
@@ -31,9 +31,9 @@ TEST(LostController, TheDrivesCutWithinTenMillisecondsAndOnlyAnArmBringsTorqueBa
     ASSERT_TRUE(cut[tick]) << tick;
   }
   for (std::uint32_t tick = back; tick < second_episode + 51; ++tick) {
-    ASSERT_NE(states[tick], can::State::active) << tick;
+    ASSERT_NE(states[tick], core::State::active) << tick;
   }
-  EXPECT_EQ(states[second_episode + 60], can::State::active);
+  EXPECT_EQ(states[second_episode + 60], core::State::active);
 }
 
 TEST(LostController, WithoutPicturesItFaultsAndTheNextEpisodeClearsAndArmsIt) {
@@ -41,16 +41,16 @@ TEST(LostController, WithoutPicturesItFaultsAndTheNextEpisodeClearsAndArmsIt) {
   FaultyLink link(
       controller,
       {{.from = lost, .until = second_episode, .lost_identifier = can::layout<can::VisionPose>.info.id}});
-  std::vector<can::Fault> faults;
-  std::vector<can::State> states;
+  std::vector<core::Fault> faults;
+  std::vector<core::State> states;
   AtEndOfTick watch([&](const Snapshot&) {
     faults.push_back(controller.controller().fault());
     states.push_back(controller.controller().state());
   });
   KickRig(link).play({.episodes = 2}, {&watch});
-  EXPECT_EQ(states[lost - 1], can::State::active);
-  EXPECT_EQ(faults[lost + 210], can::Fault::vision_lost);
-  EXPECT_EQ(states[second_episode + 60], can::State::active);
+  EXPECT_EQ(states[lost - 1], core::State::active);
+  EXPECT_EQ(faults[lost + 210], core::Fault::vision_lost);
+  EXPECT_EQ(states[second_episode + 60], core::State::active);
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ using Ticks = loop::ClockTicks<BoardClock>;
 constinit BoardClock board_clock;
 constinit BoardBus bus(board_clock);
 constinit Ticks ticks_by_clock(board_clock, {.frames_per_tick = most_frames_a_tick, .overrun_limit = 50});
-constinit loop::TickLoop<loop::BuiltInNode, BoardBus, Ticks> tick_loop(loop::built_in_robot, bus,
-                                                                       ticks_by_clock);
+constinit loop::TickLoop<loop::BuiltInNode, BoardBus&, Ticks&> tick_loop(loop::built_in_robot, bus,
+                                                                         ticks_by_clock);
 
 }  // namespace
 

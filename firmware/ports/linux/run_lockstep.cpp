@@ -49,7 +49,7 @@ LockstepReport run_lockstep(host::CanSocket& socket, std::chrono::milliseconds s
   LockstepReport report;
   LockstepBus bus(socket);
   loop::SyncTicks ticks;
-  loop::TickLoop<loop::BuiltInNode, LockstepBus, loop::SyncTicks> loop(loop::built_in_robot, bus, ticks);
+  loop::TickLoop<loop::BuiltInNode, LockstepBus&, loop::SyncTicks&> loop(loop::built_in_robot, bus, ticks);
   FaultAnnouncer announcer;
   auto last_sync = Clock::now();
   while (!host::stop_requested()) {

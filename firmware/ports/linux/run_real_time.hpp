@@ -77,7 +77,7 @@ void run_real_time(BusType& bus, host::AbsoluteClock& clock, const RealTimeOptio
   LoopClock loop_clock(clock, options.period_ns);
   Ticks ticks(loop_clock,
               {.frames_per_tick = options.frames_per_tick, .overrun_limit = options.overrun_limit});
-  loop::TickLoop<loop::BuiltInNode, BusType, Ticks> loop(loop::built_in_robot, bus, ticks);
+  loop::TickLoop<loop::BuiltInNode, BusType&, Ticks&> loop(loop::built_in_robot, bus, ticks);
   const ResourceUse before = thread_resource_use();
   while (!host::stop_requested() && (options.ticks == 0 || timing.ticks < options.ticks)) {
     loop.turn();
