@@ -8,8 +8,8 @@ inline constexpr double gravity_m_s2 = 9.81;
 // Damping: of its linear and angular velocity a body keeps this share in 1 s (AI World Cup test_world).
 inline constexpr double kept_after_1_s = 0.8;
 
-// The same as a rate, -ln 0.8, and as the share that a physics step of 10 ms leaves, 0.8^0.01. C++20 has no constexpr
-// logarithm; tests/world/damping_test.cpp holds the three together.
+// The same as a rate, -ln 0.8, and as the share that a physics step of 10 ms leaves, 0.8^0.01. C++20 has no
+// constexpr logarithm; tests/world/physics_constants_test.cpp holds the three together.
 inline constexpr double damping_per_s = 0.22314355131420976;
 inline constexpr double kept_in_10_ms = 0.9977710522882823;
 

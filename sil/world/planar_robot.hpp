@@ -38,11 +38,12 @@ struct PlanarRobot {
 };
 
 inline constexpr RobotSpec planar_spec = robot_spec(Role::forward);
-// What a wheel weighs that rolls: its spin counts half its mass more. 15 / 10, as 1.5 times 0.1 rounds to another
-// double than 0.15.
+// What a wheel weighs that rolls: its spin counts half its mass more. 15 / 10, as 1.5 times 0.1 rounds to
+// another double than 0.15.
 inline constexpr double planar_rolling_wheel_kg = 15.0 * planar_spec.wheel_mass_kg / 10.0;
 inline constexpr double planar_mass_kg = planar_spec.body_mass_kg + 2.0 * planar_rolling_wheel_kg;
-// Body (a box) and wheels (cylinders) about the vertical axis, which no turn changes; wheels' movement and spin.
+// Body (a box) and wheels (cylinders) about the vertical axis, which no turn changes; wheels' movement and
+// spin.
 inline constexpr double planar_own_inertia_kgm2 =
     planar_spec.body_mass_kg * (robot_side_m * robot_side_m + robot_side_m * robot_side_m) / 12.0 +
     2.0 * planar_spec.wheel_mass_kg *

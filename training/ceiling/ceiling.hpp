@@ -55,8 +55,8 @@ class CeilingSearch {
     std::uint32_t branch = 0;
     std::uint8_t action = 0;
   };
-  // Where a robot must be before a decision, and how fast, for a contact that is worth it: any state that does not
-  // meet these needs is dropped.
+  // Where a robot must be before a decision, and how fast, for a contact that is worth it: any state that
+  // does not meet these needs is dropped.
   struct Needs {
     double low_m = 0.0;
     double high_m = 0.0;

@@ -1,5 +1,5 @@
-// The ceiling and its rivals over the episodes of a seed. Results depend on the options alone, never on the number of
-// jobs.
+// The ceiling and its rivals over the episodes of a seed. Results depend on the options alone, never on the
+// number of jobs.
 #pragma once
 
 #include <array>

@@ -8,9 +8,9 @@
 
 namespace striker::training {
 
-// The states before the contact of `count` episodes each of greedy and of random play, among wheel bodies. `first`
-// numbers the episodes, which neither training nor evaluation meets (episode_numbers.hpp): different numbers, other
-// states.
+// The states before the contact of `count` episodes each of greedy and of random play, among wheel bodies.
+// `first` numbers the episodes, which neither training nor evaluation meets (episode_numbers.hpp): different
+// numbers, other states.
 [[nodiscard]] std::vector<RawState> calibration_play(const Parameters& parameters, TaskConfig task, int first,
                                                      int count);
 

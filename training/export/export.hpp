@@ -21,9 +21,9 @@ struct Export {
   RewardDifference reward;
 };
 
-// Plays episodes that neither training nor evaluation meets, greedily and at random, for calibration states and golden
-// vectors; takes about 10 s. Throws std::runtime_error for a model that the firmware could not serve (firmware_limits.hpp)
-// or that cannot be quantised (quantise.hpp).
+// Plays episodes that neither training nor evaluation meets, greedily and at random, for calibration states
+// and golden vectors. Throws std::runtime_error for a model that the firmware could not
+// serve (firmware_limits.hpp) or that cannot be quantised (quantise.hpp).
 [[nodiscard]] Export export_model(const Model& model, const TaskConfig& task,
                                   WeightType weights = WeightType::int16);
 

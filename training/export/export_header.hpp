@@ -25,8 +25,8 @@ struct ExportedPolicy {
 // The identity as `identity_of` in firmware/policy/proof.hpp specifies it.
 [[nodiscard]] std::uint32_t identity_of(const ExportedPolicy& policy);
 
-// The policy is striker::policy::NAME, a C++ identifier. `notes` become the comment on top, a line each, of at most 105
-// characters. The text depends on the arguments alone: no dates, no paths.
+// The policy is striker::policy::NAME, a C++ identifier. `notes` become the comment on top, a line each, of
+// at most 105 characters. The text depends on the arguments alone: no dates, no paths.
 [[nodiscard]] std::string header_text(const ExportedPolicy& policy, const std::string& name,
                                       const std::vector<std::string>& notes);
 

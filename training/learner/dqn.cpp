@@ -89,7 +89,8 @@ void Learner::resume(LearnerState state) {
   round_online();
 }
 
-// An episode's schedules: exploration over its own number of episodes, the learning rate over the whole training.
+// An episode's schedules: exploration over its own number of episodes, the learning rate over the whole
+// training.
 EpisodeRow Learner::begin_episode(int episode) {
   progress_ = share_of(episode, planned_episodes_);
   EpisodeRow row{.episode = episode};

@@ -1,5 +1,6 @@
-// The learner: a deep Q network (Mnih et al. 2015) as in the paper, with the options of the configuration. An episode's
-// decisions are below the class, the gradient step is dqn.cpp from top to bottom. It learns in any Environment.
+// The learner: a deep Q network (Mnih et al. 2015) as in the paper, with the options of the configuration. An
+// episode's decisions are below the class, the gradient step is dqn.cpp from top to bottom. It learns in any
+// Environment.
 //
 //   Learner learner(setup, seed);
 //   env.reset(seed, episode);
@@ -36,8 +37,8 @@ class Learner {
  public:
   Learner(const LearnerSetup& setup, std::uint64_t seed);
 
-  // Plays training episode `episode` in `env`, which has been reset to its start, and learns from it: up to `end`,
-  // past which it never looks.
+  // Plays training episode `episode` in `env`, which has been reset to its start, and learns from it: up to
+  // `end`, past which it never looks.
   template <Environment E>
   EpisodeRow play(E& env, int episode);
 

@@ -1,5 +1,5 @@
-// What a learner has learnt and where it stands, between two episodes: a value that can be copied and kept. A learner
-// of the same setup that is given it goes on to the same bits.
+// What a learner has learnt and where it stands, between two episodes: a value that can be copied and kept. A
+// learner of the same setup that is given it goes on to the same bits.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// A training run's configuration, from a TOML file. What each key means is said in training/configs/paper.toml, which
-// also holds every default.
+// A training run's configuration, from a TOML file. What each key means is said in
+// training/configs/paper.toml, which also holds every default.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +21,9 @@ struct RunConfig {
 
 struct Config {
   std::string name;  // the file's name without its extension
-  // Every key with its value, in one fixed order: the same text is the same training. `task.kind` stands in it only if
-  // it is not "kick": configurations are known by their text's hash, and older ones did not have that key.
+  // Every key with its value, in one fixed order: the same text is the same training. `task.kind` stands in
+  // it only if it is not "kick": configurations are known by their text's hash, and older ones did not have
+  // that key.
   std::string text;
   RunConfig run;
   std::vector<TaskConfig> environments;  // played in turn, episode by episode; the first one validates
@@ -35,8 +36,8 @@ struct Config {
 // The defaults: training/configs/paper.toml as it was built in.
 [[nodiscard]] std::string_view default_configuration();
 
-// Both throw std::runtime_error with a one-line message that names the file, the key, the value and the range.
-// `changes` are lines of "table.key = value" that override the file.
+// Both throw std::runtime_error with a one-line message that names the file, the key, the value and the
+// range. `changes` are lines of "table.key = value" that override the file.
 [[nodiscard]] Config load_config(const std::filesystem::path& file,
                                  const std::vector<std::string>& changes = {});
 [[nodiscard]] Config parse_config(std::string_view text, const std::string& file,

@@ -9,7 +9,7 @@
 namespace striker::training {
 
 // The mean reward of greedy play on `count` (at least 1) episodes of a seed, numbered from `first_episode` on
-// (episode_numbers.hpp). 5,000 episodes of the kick take a second on the plane.
+// (episode_numbers.hpp).
 [[nodiscard]] double mean_reward(const TaskConfig& task, const Parameters& parameters, std::uint64_t seed,
                                  std::uint64_t first_episode, int count);
 

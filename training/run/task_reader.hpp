@@ -1,5 +1,5 @@
-// The tables of a configuration that describe the task: [task], and those of its kind ([ball] and [reward] for the
-// kick).
+// The tables of a configuration that describe the task: [task], and those of its kind ([ball] and [reward]
+// for the kick).
 #pragma once
 
 #include <vector>

@@ -18,8 +18,8 @@ namespace striker::training {
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-// Every key stands in the table, so that reading can only fail by the value: std::runtime_error with one line.
-// The table must outlive the reader.
+// Every key stands in the table, so that reading can only fail by the value: std::runtime_error with one
+// line. The table must outlive the reader.
 class TomlReader {
  public:
   TomlReader(const toml::table& root, std::string file) : root_(root), file_(std::move(file)) {}

@@ -1,15 +1,17 @@
-// A task as a learner sees it: episodes that can be drawn again, a situation as numbers, actions, rewards, an end.
+// A task as a learner sees it: episodes that can be drawn again, a situation as numbers, actions, rewards, an
+// end.
 //
-// `Environment` is what learner, training, evaluation and export need of one. They are templates over it, as they call
-// it in every decision; which one a run plays is chosen once, from the configuration (environments.hpp). One episode:
+// `Environment` is what learner, training, evaluation and export need of one. They are templates over it, as
+// they call it in every decision; which one a run plays is chosen once, from the configuration
+// (environments.hpp). One episode:
 //
 //   env.reset(seed, episode);
 //   for (bool end = false; !end;) {
 //     end = env.step(choose(env.features())).end;
 //   }
 //
-// Cost: a decision of the kick on the plane takes about 0.2 us, among wheel bodies 40 us. Neither `reset` nor `step`
-// allocates.
+// Cost: a decision of the kick on the plane takes about 0.2 us, among wheel bodies 40 us. Neither `reset` nor
+// `step` allocates.
 #pragma once
 
 #include <concepts>
@@ -40,12 +42,13 @@ concept Environment = requires(E env, const E& seen, std::uint64_t number, int a
   // Action 0 to actions - 1. To be called until `last` at the most.
   { env.step(action) } -> std::same_as<StepResult>;
 
-  // What a network reads now, one value an input; and the same as the controller's integers, for inputs it knows.
+  // What a network reads now, one value an input; and the same as the controller's integers, for inputs it
+  // knows.
   { seen.features() } -> std::same_as<const Features&>;
   { seen.raw() } -> std::same_as<RawState>;
 
-  // No further decision can change the outcome, or there is none left; and the time after the last decision in which
-  // it may still become known.
+  // No further decision can change the outcome, or there is none left; and the time after the last decision
+  // in which it may still become known.
   { seen.settled() } -> std::same_as<bool>;
   { env.finish() } -> std::same_as<void>;
 };

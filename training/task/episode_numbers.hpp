@@ -1,5 +1,5 @@
-// Who plays which episodes of a seed. Evaluations number theirs from 0, as striker-sil does; every other use begins so
-// far away that no evaluation meets it.
+// Who plays which episodes of a seed. Evaluations number theirs from 0, as striker-sil does; every other use
+// begins so far away that no evaluation meets it.
 #pragma once
 
 #include <cstdint>

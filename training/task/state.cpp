@@ -36,7 +36,8 @@ constexpr std::array<ElementFacts, 18> facts = {{
     {"dummy", 1.0, 0.0, 1.0F},
 }};
 
-// The firmware computes these itself: the numbers in an exported header are its own, and so are the mirror's signs.
+// The firmware computes these itself: the numbers in an exported header are its own, and so are the mirror's
+// signs.
 constexpr bool is_the_firmwares(Element element, policy::StateElement of_firmware) {
   return static_cast<int>(element) == static_cast<int>(of_firmware) &&
          (facts[static_cast<std::size_t>(element)].mirror < 0.0F) == policy::changes_sign(of_firmware) &&

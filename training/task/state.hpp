@@ -55,8 +55,8 @@ struct DecisionState {
   int decisions_left = 0;  // 40 at the first decision of an episode, 0 after its last
 };
 
-// The first seven are the controller's, policy::StateElement in its order (state.cpp checks it against the firmware's
-// own); the rest is for experiments.
+// The first seven are the controller's, policy::StateElement in its order (state.cpp checks it against the
+// firmware's own); the rest is for experiments.
 enum class Element : std::uint8_t {
   ball_x,
   ball_y,

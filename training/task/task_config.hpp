@@ -12,12 +12,13 @@ namespace striker::training {
 // Which environment plays the task (environments.hpp); `task.kind` in TOML.
 enum class TaskKind { kick };
 
-// Both are the paper's servo plant. `planar`: the robot as one body on the plane (sil::PlanarWorld), 200 times as
-// fast; `full`: wheel bodies in ODE (sil::World), the reference. They are "fast" and "full" to a user.
+// Both are the paper's servo plant. `planar`: the robot as one body on the plane (sil::PlanarWorld), 200
+// times as fast; `full`: wheel bodies in ODE (sil::World), the reference. They are "fast" and "full" to a
+// user.
 enum class Physics { planar, full };
 
-// `exact`: the world's own velocities. `estimated`: as the firmware has them, the ball's from the last two vision
-// frames (50 ms apart, exact positions), the robot's from its wheels.
+// `exact`: the world's own velocities. `estimated`: as the firmware has them, the ball's from the last two
+// vision frames (50 ms apart, exact positions), the robot's from its wheels.
 enum class Velocities { exact, estimated };
 
 // An action: the rim speeds that the wheels are set to.
@@ -48,8 +49,9 @@ struct TaskConfig {
   Velocities velocities = Velocities::exact;
   Equations equations = Equations::corrected;
   StateInputs inputs = rcs_inputs();
-  // The network sees the ball on the left only: where it is on the right, the situation is seen as in a mirror along
-  // the heading, and an action swaps the wheels. `task.mirrored` in TOML, `mirrored` in an exported header.
+  // The network sees the ball on the left only: where it is on the right, the situation is seen as in a
+  // mirror along the heading, and an action swaps the wheels. `task.mirrored` in TOML, `mirrored` in an
+  // exported header.
   bool one_sided = false;
   std::vector<SetPoint> actions = kick_actions();
   // What a kick pays, and whether the learner's episode goes on after the contact.

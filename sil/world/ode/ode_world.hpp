@@ -6,8 +6,8 @@
 
 namespace striker::sil {
 
-// Damping: the share of its linear and angular velocity that a body keeps in a step. ODE damps last: a body moves with
-// the solved velocity, then loses the rest of it.
+// Damping: the share of its linear and angular velocity that a body keeps in a step. ODE damps last: a body
+// moves with the solved velocity, then loses the rest of it.
 [[nodiscard]] double kept_in_step(double step_s);
 
 // Worlds that one process steps in several threads at once need a job queue each: the one that ODE gives them

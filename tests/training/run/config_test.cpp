@@ -93,8 +93,8 @@ TEST(Config, EmptyIsThePapers) {
   EXPECT_EQ(parse_config(config.text, "g").learner.gamma, 0.5);
 }
 
-// A configuration is known by its text's hash, which exported headers carry: the default kind of task, which older
-// texts did not name, stands in none.
+// A configuration is known by its text's hash, which exported headers carry: the default kind of task, which
+// older texts did not name, stands in none.
 TEST(Config, TheCommittedPolicysConfigurationIsStillItsOwn) {
   const std::filesystem::path configs = STRIKER_CONFIGS;
   const Config kick = load_config(configs / "kick.toml");

@@ -1,4 +1,5 @@
-// The seam between a task and its learner: an environment that is no kick is played, learnt and evaluated alike.
+// The seam between a task and its learner: an environment that is no kick is played, learnt and evaluated
+// alike.
 #include "training/task/environment.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,8 @@
 namespace striker::training {
 namespace {
 
-// On a line, a step to the left (0) or to the right (1): to place 0 from anywhere within 4, at a cost for each step.
+// On a line, a step to the left (0) or to the right (1): to place 0 from anywhere within 4, at a cost for
+// each step.
 class LineWalk {
  public:
   struct Outcome {
