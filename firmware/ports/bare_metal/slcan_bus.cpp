@@ -12,7 +12,7 @@ namespace striker::bare_metal {
 namespace {
 
 SlcanReader reader;
-bool line_is_open = false;  // a line was broken off
+bool line_is_open = false;  // the last line was broken off
 
 // False after a tick, from its beginning to its end, without room.
 bool put_in_time(char letter) {
@@ -42,7 +42,8 @@ bool receive_can(can::Frame& frame) {
 }
 
 bool try_send_can(const can::Frame& frame) {
-  if (line_is_open && !put_in_time('\r')) {
+  // The letter belongs to no frame: a line that lacked its end alone must not become one now.
+  if (line_is_open && !(put_in_time('-') && put_in_time('\r'))) {
     return false;
   }
   const SlcanLine line = slcan_line(frame);
