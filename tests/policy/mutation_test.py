@@ -13,7 +13,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 POLICY = "firmware/policy/exported/kick.hpp"
 CONTROLLER = "firmware/core/controller.cpp"
-SCALAR = "firmware/policy/kernel/scaling.hpp"
+ARGMAX = "firmware/policy/kernel/argmax.hpp"
+BRANCH_FREE = "firmware/policy/kernel/branch_free.hpp"
 
 BRANCHING_RELU = """constexpr std::int32_t saturate_relu(std::int32_t value) {
   if (value < 0) {
@@ -59,10 +60,10 @@ MUTATIONS = (
      "static_assert(true", altered_headers),
     ("a golden vector is gone", POLICY, r"(, )16(> kick)([\s\S]*)\n +\{\.raw = [\s\S]*?\},\n(    \}\},\n\};)",
      r"\g<1>15\2\3\n\4", compiles),
-    ("argmax branches", SCALAR, r"const std::int32_t greater = less_mask\(best, sums\[k\]\);",
+    ("argmax branches", ARGMAX, r"const std::int32_t greater = less_mask\(best, sums\[k\]\);",
      'const std::int32_t greater = less_mask(best, sums[k]);\n    if (greater != 0) {\n      asm volatile("nop");\n    }',
      host_instructions),
-    ("ReLU branches on the Cortex-M0+", SCALAR, r"constexpr std::int32_t saturate_relu\([\s\S]*?\n\}", BRANCHING_RELU,
+    ("ReLU branches on the Cortex-M0+", BRANCH_FREE, r"constexpr std::int32_t saturate_relu\([\s\S]*?\n\}", BRANCHING_RELU,
      image("cortex-m0plus")),
     ("two weights change places on the Cortex-M4", "firmware/policy/kernel/int16/armv7em.hpp",
      r"half_words\(weight_or_zero\(layer, row, 2 \* p \+ 1\), layer\.weights\[row\]\[2 \* p\]\)",
