@@ -1,9 +1,9 @@
-// The int16 kernel with AVX2's vectors of 256 bits, for the tests and benchmarks that show what the processor can
-// do. The firmware's Linux build takes SSE2: it has to run on any x86-64, and decides every 50 ms.
+// The int16 kernel with AVX2's vectors of 256 bits, for the tests and benchmarks that show what the processor
+// can do. The firmware's Linux build takes SSE2: it has to run on any x86-64, and decides every 50 ms.
 //
-// It is the kernel of firmware/policy/kernel/int16/x86.hpp with twice the lanes, and scales the inputs eight at a
-// time where their shifts let it. avx2::infer<policy>(raw) is to it what infer<policy>(raw) is to the others: the same
-// bits, in the same number of instructions for every input.
+// It is the kernel of firmware/policy/kernel/int16/x86.hpp with twice the lanes, and scales the inputs eight
+// at a time where their shifts let it. avx2::infer<policy>(raw) is to it what infer<policy>(raw) is to the
+// others: the same bits, in the same number of instructions for every input.
 #pragma once
 
 #ifndef __AVX2__
@@ -53,8 +53,8 @@ struct Vectors {
 };
 
 // Scales eight inputs at a time, as kernel::scale_input() does one: the even lanes' 64-bit products, and then
-// the odd ones'. Of a shifted product only the lower word is taken, so that a scale's shift must not be beyond
-// 32.
+// the odd ones'. Of a shifted product only the lower word is taken, so that a scale's shift must not be
+// beyond 32.
 template <std::size_t Inputs>
 struct InputScaler {
   static constexpr std::size_t lanes = 8;

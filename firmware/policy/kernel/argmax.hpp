@@ -9,7 +9,8 @@
 
 namespace striker::policy::kernel {
 
-// The index of the greatest sum; of equal ones, the lowest index. It takes as many instructions whichever it is.
+// The index of the greatest sum; of equal ones, the lowest index. It takes as many instructions whichever it
+// is.
 template <std::size_t Actions>
 constexpr std::uint8_t index_of_greatest(const std::array<std::int32_t, Actions>& sums) {
   std::int32_t best = sums[0];

@@ -13,8 +13,8 @@
 // Example: with weights 3 (upper) and -2 (lower) a word is 0x00037FFE. For a = 100 T is 300, S is
 // 300 * 2^16 + 32766 * 100, and the lower row S - 300 * 2^16 - 2^15 * 100 = -200.
 //
-// A layer's words are groups of rows (6 on Armv6-M or 4, then 4, 2 and 1 for what is left): what each pair's S
-// and T begin with, then, for one turn of columns after another, a word a column of each pair of rows. What
+// A layer's words are groups of rows (6 on Armv6-M or 4, then 4, 2 and 1 for what is left): what each pair's
+// S and T begin with, then, for one turn of columns after another, a word a column of each pair of rows. What
 // the assembler makes of them is shown in armv6m_armv7m_block.hpp.
 #pragma once
 

@@ -5,9 +5,10 @@
 // four words an instruction, which GCC 12 does not make of intrinsics (it loads word by word). Activations
 // lie two in a word. USAT with a shift is rescaling, ReLU and saturation at once.
 //
-// A layer's words are groups of four rows, and one of 1 to 3 for what is left: a group's biases, then, for one
-// block of 4 pairs of columns after another, its rows' weights (fewer pairs in the last block). Of a block of
-// 4 rows and 4 pairs the assembler makes 21 instructions for 32 products, with all 14 registers in use:
+// A layer's words are groups of four rows, and one of 1 to 3 for what is left: a group's biases, then, for
+// one block of 4 pairs of columns after another, its rows' weights (fewer pairs in the last block). Of a
+// block of 4 rows and 4 pairs the assembler makes 21 instructions for 32 products, with all 14 registers in
+// use:
 //
 //   ldmia r7!, {r8, r9, r10, r11}                    the activations of 8 columns
 //   ldmia r1!, {r2, r3, r12, lr}                     row 0's weights of them
@@ -84,8 +85,9 @@ struct Sums {
       : __VA_ARGS__)
 // clang-format on
 
-// Adds the products of `Rows` rows and the next `Pairs` pairs of columns to the rows' sums; both are at most 4.
-// LDM fills registers in their order: those are fixed, and the sums' and pointers' are the compiler's choice.
+// Adds the products of `Rows` rows and the next `Pairs` pairs of columns to the rows' sums; both are at most
+// 4. LDM fills registers in their order: those are fixed, and the sums' and pointers' are the compiler's
+// choice.
 template <std::size_t Rows, std::size_t Pairs>
 [[gnu::always_inline]] inline void multiply_block(const std::uint32_t*& weights,
                                                   const std::uint32_t*& activations, Sums<Rows>& sums) {

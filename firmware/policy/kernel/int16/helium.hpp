@@ -6,8 +6,8 @@
 // bias: GNU as 2.40 assembles it as VQRSHRN.)
 //
 // Weights and activations lie in vectors of 8 columns, the last one filled up with weights of 0. In a group
-// of four rows one block of 4 vectors comes after another, in each the rows one after the other. Of a block of
-// 4 rows and 4 vectors the assembler makes 21 instructions for 128 products:
+// of four rows one block of 4 vectors comes after another, in each the rows one after the other. Of a block
+// of 4 rows and 4 vectors the assembler makes 21 instructions for 128 products:
 //
 //   vldmia r5!, {d8-d15}                             the activations of 32 columns, in q4 to q7
 //   vldmia r3!, {d0-d7}                              row 0's weights of them, in q0 to q3
@@ -15,8 +15,8 @@
 //   vmladava.s16 r0, q2, q6      vmladava.s16 r0, q3, q7
 //                                                    and so for rows 1 to 3, whose sums are in r2, r4 and r6
 //
-// Layers of one vector, and of four, keep their activations in registers for all rows: a group of four rows of
-// one vector is a VLDMIA and four VMLADAVA.
+// Layers of one vector, and of four, keep their activations in registers for all rows: a group of four rows
+// of one vector is a VLDMIA and four VMLADAVA.
 #pragma once
 
 #include <arm_mve.h>

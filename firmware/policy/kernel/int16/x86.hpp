@@ -1,20 +1,22 @@
 // The kernel for int16 weights and x86-64: SSE2, which every such processor has.
 //
-// PMADDWD multiplies pairs of half-words and adds each two products. In hidden layers a lane is a row, and the
-// activations are broadcast pair by pair: no sum ever has to be gathered across lanes. The few rows of the
-// output layer go the other way: a lane is a column, and four rows' sums are gathered at the end. So the two
-// roles of a layer are packed differently.
+// PMADDWD multiplies pairs of half-words and adds each two products. In hidden layers a lane is a row, and
+// the activations are broadcast pair by pair: no sum ever has to be gathered across lanes. The few rows of
+// the output layer go the other way: a lane is a column, and four rows' sums are gathered at the end. So the
+// two roles of a layer are packed differently.
 //
-// Of 4 rows and one pair of columns, 8 products, GCC makes of hidden_chunk()
+// Of 4 rows and one pair of columns, 8 products, GCC makes of hidden_chunk() 4 instructions, the first of
+// which serves all rows of the chunk:
 //
-//   movd    xmm0, [pair]      pshufd xmm0, xmm0, 0           the pair of activations in all lanes
-//   movdqa  xmm1, [weights]   pmaddwd xmm1, xmm0             (w01 w00), (w11 w10), (w21 w20), (w31 w30)
-//   paddd   xmm2, xmm1                                       the four rows' sums
+//   pshufd  xmm2, xmm0, 0                            the pair of activations in all lanes
+//   movdqa  xmm1, xmm2
+//   pmaddwd xmm1, [rax]                              times (w01 w00), (w11 w10), (w21 w20), (w31 w30)
+//   paddd   xmm3, xmm1                               to the four rows' sums
 //
-// and the first two of these instructions once for all rows of a chunk.
+// where wRC is row R's weight of column C.
 //
-// The kernel is a template over the vectors: tests/policy/avx2_kernel.hpp makes one of 256 bits of it, which no
-// program of the firmware is compiled for.
+// The kernel is a template over the vectors: tests/policy/avx2_kernel.hpp makes one of 256 bits of it, which
+// no program of the firmware is compiled for.
 #pragma once
 
 #include <algorithm>
@@ -53,8 +55,8 @@ struct Sse2Vectors {
   static Quad fold(Words v) { return v; }
 };
 
-// Numbers in memory as a vector. (Where one is copied instead, it is by __builtin_memcpy: in freestanding code
-// the plain name would be a call.)
+// Numbers in memory as a vector. (Where one is copied instead, it is by __builtin_memcpy: in freestanding
+// code the plain name would be a call.)
 template <class Words, class Number>
 [[gnu::always_inline]] inline const Words& vector_at(const Number* numbers) {
   using Aliasing [[gnu::may_alias]] = Words;
@@ -85,8 +87,8 @@ struct Kernel {
     void set(std::size_t i, std::int32_t value) { values[i] = static_cast<std::int16_t>(value); }
   };
 
-  // A hidden layer as it is packed, one chunk of rows after another: for each pair of columns, its rows' pairs
-  // of weights. The rows are filled up to whole pairs of vectors.
+  // A hidden layer as it is packed, one chunk of rows after another: for each pair of columns, its rows'
+  // pairs of weights. The rows are filled up to whole pairs of vectors.
   template <std::size_t Inputs, std::size_t Outputs>
   struct HiddenLayer {
     alignas(Words) std::array<std::int16_t, rows(Outputs) * 2 * pairs(Inputs)> weights{};
@@ -251,4 +253,5 @@ struct Kernel {
 }  // namespace x86
 
 using Sse2 = x86::Kernel<x86::Sse2Vectors>;
+
 }  // namespace striker::policy::kernel::int16

@@ -4,10 +4,11 @@
 // adds all products to a general register. The rows lie one after the other, a byte a weight, nothing between
 // them; four rows share the activations. The sums are rescaled as in int16/helium.hpp.
 //
-// Of four rows and eight columns come 9 instructions, for 32 products:
+// Of four rows and eight columns GCC makes 9 instructions for 32 products, beside the loop's own:
 //
-//   vldrh.u16    q0, [activations]
-//   vldrb.s16    q1, [row 0]     vmladava.s16 sum0, q1, q0        and so for rows 1 to 3
+//   vldrh.16     q2, [lr]                            the activations
+//   vldrb.s16    q0, [r2, #39]                       row 3's weights of them; 39 is 3 rows of 13 bytes
+//   vmladava.s16 r4, q0, q2                          and so for the other rows
 #pragma once
 
 #include <arm_mve.h>

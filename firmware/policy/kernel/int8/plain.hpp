@@ -1,7 +1,7 @@
 // The kernel for int8 weights in plain C++: Cortex-M3, M0+, the host, and builds without optimisation.
 //
-// Neither Armv6-M nor Armv7-M widens several bytes at once: each byte is loaded with its sign. Four rows share
-// an activation. Their weights lie column by column, so that one pointer finds them all:
+// Neither Armv6-M nor Armv7-M widens several bytes at once: each byte is loaded with its sign. Four rows
+// share an activation. Their weights lie column by column, so that one pointer finds them all:
 //
 //   w00 w10 w20 w30, w01 w11 w21 w31, ...                    wRC: row R's weight of column C
 //
