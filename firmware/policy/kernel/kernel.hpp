@@ -4,7 +4,7 @@
 // computed from them:
 //
 //   name                             what programs print, "int16/armv7em" for kernel/int16/armv7em.hpp
-//   rounds                           whether hidden() adds 2^(shift - 1) by itself; else pack() is given biases
+//   rounds                           whether hidden() adds 2^(shift - 1) by itself; else pack() gets biases
 //                                    that hold it, which saves an addition a neuron
 //   Activations<N>                   N activations in [-32767, 32767], as hidden() and sums() load them;
 //                                    set(i, value) is called once for each i, from 0 upwards
