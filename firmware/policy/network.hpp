@@ -1,20 +1,15 @@
 // The Q network: int16 or int8 weights, int16 activations, 32-bit sums, ReLU, power-of-two rescaling, argmax.
 //
-// The arithmetic is the specification in policy.hpp, to the bit, whatever the kernel. The header's proof
-// makes overflow impossible, so no sum is checked here. The instruction count does not depend on the input:
-// saturation, ReLU and argmax are masks or saturating instructions, never branches (held by tests/ports and
-// tests/policy).
+//   const auto q = infer<kick>({ball_x_um, ball_y_um, ...});    // q.action, q.sums
 //
-// A kernel is a struct that says how activations and weights lie in memory and how a layer is computed:
+// The arithmetic is the specification in firmware/policy/policy.hpp, to the bit, whatever the kernel. The
+// header's proof makes overflow impossible, so no sum is checked here, and every raw input is allowed. An
+// inference takes the same number of instructions for every input. Its activations are on the stack, two to
+// six bytes a neuron.
 //
-//   Activations<N>                   N activations, with set(i, value)
-//   pack_hidden(layer), pack_output(layer)   the layer as the kernel reads it, made by the compiler
-//   hidden<shift>(layer, in, out)    a hidden layer: out = clamp((sums + 2^(shift - 1)) >> shift, 0, 32767)
-//   sums(layer, in, out)             the output layer
-//   scale<policy>(raw, inputs)       all inputs at once, where a kernel has a better way than one by one
-//
-// kernel/chosen.hpp picks one for the target and the weights' type. Only the packed weights reach the image:
-// the header's own rows do not, as nothing refers to them at run time.
+// kernel/select.hpp picks the kernel for the target and the weights' type; kernel/kernel.hpp says what one
+// is. The compiler packs the weights in the kernel's order, and only those reach the image: the header's own
+// rows do not, as nothing refers to them at run time.
 #pragma once
 
 #include <array>
@@ -23,6 +18,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "firmware/policy/kernel/argmax.hpp"
+#include "firmware/policy/kernel/kernel.hpp"
+#include "firmware/policy/kernel/packing.hpp"
 #include "firmware/policy/kernel/scaling.hpp"
 #include "firmware/policy/kernel/select.hpp"
 #include "firmware/policy/policy.hpp"
@@ -35,34 +33,47 @@ struct QValues {
   std::uint8_t action;                     // of the greatest sum; of equals, the lowest
 };
 
+// In all that follows, `policy` is a constant with static storage, as an exported header holds.
 template <const auto& policy>
-using ChosenKernel = kernel::ChosenFor<typename std::remove_cvref_t<decltype(policy)>::Weight>;
+using ShapeOf = std::remove_cvref_t<decltype(policy)>;
+
+template <const auto& policy>
+using SelectedKernel = kernel::Selected<typename ShapeOf<policy>::Weight>;
+
+template <class Kernel, std::size_t Inputs, std::size_t Outputs, class Weight>
+constexpr auto pack_hidden(const Layer<Inputs, Outputs, Weight>& layer) {
+  return Kernel::template pack<kernel::Role::hidden>(
+      layer, Kernel::rounds ? layer.biases : kernel::rounded_biases(layer));
+}
+
+template <class Kernel, std::size_t Inputs, std::size_t Outputs, class Weight>
+constexpr auto pack_output(const Layer<Inputs, Outputs, Weight>& layer) {
+  return Kernel::template pack<kernel::Role::output>(layer, layer.biases);
+}
 
 // A policy's weights in a kernel's order.
-template <const auto& policy, class Kernel = ChosenKernel<policy>>
+template <const auto& policy, class Kernel = SelectedKernel<policy>>
 struct Packed {
-  static constexpr auto layer1 = Kernel::pack_hidden(policy.layer1);
-  static constexpr auto layer2 = Kernel::pack_hidden(policy.layer2);
-  static constexpr auto output = Kernel::pack_output(policy.output);
+  static constexpr auto layer1 = pack_hidden<Kernel>(policy.layer1);
+  static constexpr auto layer2 = pack_hidden<Kernel>(policy.layer2);
+  static constexpr auto output = pack_output<Kernel>(policy.output);
 
   static constexpr std::size_t bytes = sizeof(layer1) + sizeof(layer2) + sizeof(output);
 };
 
-// `policy` is a constant with static storage, as an exported header holds.
-template <const auto& policy, class Kernel = ChosenKernel<policy>>
+// The network's answer to raw inputs, in the order and units of `policy.state`.
+template <const auto& policy,
+          kernel::KernelFor<typename ShapeOf<policy>::Weight> Kernel = SelectedKernel<policy>>
 [[nodiscard, gnu::noinline]] constexpr auto infer(
-    const std::array<std::int32_t, std::remove_cvref_t<decltype(policy)>::inputs>& raw) {
-  using Shape = std::remove_cvref_t<decltype(policy)>;
+    const std::array<std::int32_t, ShapeOf<policy>::inputs>& raw) {
+  using Shape = ShapeOf<policy>;
   using Weights = Packed<policy, Kernel>;
   typename Kernel::template Activations<Shape::inputs> inputs;
-  if constexpr (requires { Kernel::template scale<policy>(raw, inputs); }) {
-    Kernel::template scale<policy>(raw, inputs);
-  } else {
-    [&]<std::size_t... i>(std::index_sequence<i...>) {
-      (inputs.set(i, kernel::scale_input<policy.input_scales[i]>(raw[i])), ...);
-    }
-    (std::make_index_sequence<Shape::inputs>{});
+  // Each input has code of its own, made for its scale: hence a list of indices in place of a loop.
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (inputs.set(i, kernel::scale_input<policy.input_scales[i]>(raw[i])), ...);
   }
+  (std::make_index_sequence<Shape::inputs>{});
   typename Kernel::template Activations<Shape::hidden1> hidden1;
   typename Kernel::template Activations<Shape::hidden2> hidden2;
   Kernel::template hidden<policy.layer1.shift>(Weights::layer1, inputs, hidden1);

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <type_traits>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/loop/built_in_node.hpp"
@@ -31,8 +30,6 @@ using namespace striker::policy;
 
 constexpr const auto& trained = policy::built_in;
 
-template <const auto& policy>
-using ShapeOf = std::remove_cvref_t<decltype(policy)>;
 template <const auto& policy>
 using Raw = std::array<std::int32_t, ShapeOf<policy>::inputs>;
 template <const auto& policy>
@@ -87,7 +84,7 @@ std::uint32_t counts_of(Function<policy> function, std::uint32_t repetitions) {
   return count<policy>(function, {}, 2 * repetitions) - once;
 }
 
-template <const auto& policy, class Kernel = ChosenKernel<policy>>
+template <const auto& policy, class Kernel = SelectedKernel<policy>>
 Range count_inference(std::uint32_t inputs) {
   const std::uint32_t repetitions = exact_repetitions();
   const Function<policy> network = infer<policy, Kernel>;
@@ -169,7 +166,7 @@ void count_recorded_steps(images::Recording& recording, std::uint32_t most_ticks
 
 int main() {
   images::console::print("kernel ");
-  images::console::print(ChosenKernel<trained>::name);
+  images::console::print(SelectedKernel<trained>::name);
   images::console::print("\n");
   using Shape = ShapeOf<trained>;
   images::console::print_line(
@@ -185,7 +182,7 @@ int main() {
     images::console::print_line("inference max", range.greatest);
   }
   if (const std::uint32_t inputs = images::console::argument("plain", 0); inputs > 0) {
-    const Range range = count_inference<trained, kernel::Portable>(inputs);
+    const Range range = count_inference<trained, kernel::int16::Portable>(inputs);
     images::console::print_line("plain min", range.least);
     images::console::print_line("plain max", range.greatest);
   }

@@ -73,11 +73,11 @@ std::uint32_t hash_of_shapes() {
   hash_answers<synthetic_half>(hash);
   hash_answers<synthetic_paper>(hash);
   hash_answers<synthetic_wide>(hash);
-  hash_answers<synthetic_bytes_smallest>(hash);
-  hash_answers<synthetic_bytes_odd>(hash);
-  hash_answers<synthetic_bytes_rest>(hash);
-  hash_answers<synthetic_bytes_paper>(hash);
-  hash_answers<synthetic_bytes_wide>(hash);
+  hash_answers<synthetic_int8_smallest>(hash);
+  hash_answers<synthetic_int8_odd>(hash);
+  hash_answers<synthetic_int8_rest>(hash);
+  hash_answers<synthetic_int8_paper>(hash);
+  hash_answers<synthetic_int8_wide>(hash);
   return hash.value();
 }
 

@@ -13,7 +13,7 @@ policy_name() { sed -nE 's/^inline constexpr Policy<[^>]*> ([a-z_0-9]+) = .*/\1/
 
 compile() {
   g++ -std=c++20 -fsyntax-only -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$1\"" "-DSTRIKER_POLICY_NAME=$(policy_name "$1")" \
-    "$source_dir/firmware/core/controller.cpp" 2>&1
+    "$source_dir/firmware/loop/built_in_node.cpp" 2>&1
 }
 
 # expect_refusal NAME SED_SCRIPT MESSAGE
@@ -40,6 +40,7 @@ altered="the header was altered after its export"
 expect_refusal identity 's/(\.identity = 0x)(.)/\1F\2/; s/(\.identity = 0x..)[0-9A-F]{7}U/\1000000U/' "$altered"
 expect_refusal one_weight '0,/\.layer2/!{0,/\{\{(-?[0-9]+), /s//{{1, /}' "$altered"
 expect_refusal set_point 's/2550/2500/' "$altered"
+expect_refusal too_fast 's/2550/2551/' "an action goes beyond the robot's top speed"
 expect_refusal overflow '0,/\.biases = \{\{[^0-9-]*-?[0-9]+/s//.biases = {{2147483647/' "a 32-bit sum could overflow"
 expect_refusal period 's/(decision_period_ms = )50/\1100/' "trained at another decision period"
 expect_refusal golden_vector '/golden_vectors/,$s/(\.sums = \{\{-?)/\11/' "$altered"

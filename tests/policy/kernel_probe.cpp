@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "firmware/policy/built_in.hpp"
-#include "firmware/policy/network.hpp"
+#include "tests/policy/tested_infer.hpp"
 
 namespace {
 
@@ -30,7 +30,7 @@ std::int32_t draw(std::string_view set, std::mt19937& random) {
 
 // Counted by its name.
 extern "C" [[gnu::noinline]] int counted_inference(const Raw& raw) {
-  return infer<built_in>(raw).action;
+  return tested_infer<built_in>(raw).action;
 }
 
 int main(int argc, char** argv) {

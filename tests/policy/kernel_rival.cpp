@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "firmware/policy/built_in.hpp"
-#include "firmware/policy/network.hpp"
+#include "tests/policy/tested_infer.hpp"
 
 namespace {
 
@@ -50,7 +50,7 @@ using FloatInput = Eigen::Matrix<float, Shape::inputs, 1>;
 
 // Counted by their names.
 extern "C" [[gnu::noinline]] int counted_inference(const Raw& raw) {
-  return infer<trained>(raw).action;
+  return tested_infer<trained>(raw).action;
 }
 
 extern "C" [[gnu::noinline]] int counted_eigen(const FloatNetwork& network, const FloatInput& input) {

@@ -1,17 +1,26 @@
-// Every kernel that this processor can run against the portable one, on networks of many shapes: the same
-// bits.
+// The kernel of this build against the portable one, on networks of many shapes: the same bits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "firmware/policy/built_in.hpp"
 #include "firmware/policy/kernel/int16/portable.hpp"
+#include "firmware/policy/kernel/int8/plain.hpp"
+#include "firmware/policy/kernel/kernel.hpp"
 #include "firmware/policy/network.hpp"
 #include "firmware/policy/proof.hpp"
 #include "tests/policy/synthetic_policy.hpp"
+#include "tests/policy/tested_infer.hpp"
 
 namespace striker::policy {
 namespace {
+
+// The contract refuses what cannot read the weights, or lacks a part.
+static_assert(kernel::KernelFor<kernel::int16::Portable, std::int16_t>);
+static_assert(kernel::KernelFor<kernel::int16::Portable, std::int8_t>);
+static_assert(kernel::KernelFor<kernel::int8::Plain, std::int8_t>);
+static_assert(!kernel::KernelFor<kernel::int8::Plain, std::int16_t>);
+static_assert(!kernel::KernelFor<int, std::int16_t>);
 
 template <const auto& policy>
 void expect_same_bits() {
@@ -21,10 +30,10 @@ void expect_same_bits() {
   for (int i = 0; i < 2'000; ++i) {
     std::array<std::int32_t, inputs> raw{};
     std::generate(raw.begin(), raw.end(), [&] { return draw_raw(random); });
-    const auto wanted = infer<policy, kernel::Portable>(raw);
-    const auto got = infer<policy>(raw);
-    ASSERT_EQ(got.sums, wanted.sums) << ChosenKernel<policy>::name << ", input " << i;
-    ASSERT_EQ(got.action, wanted.action) << ChosenKernel<policy>::name << ", input " << i;
+    const auto wanted = infer<policy, kernel::int16::Portable>(raw);
+    const auto got = tested_infer<policy>(raw);
+    ASSERT_EQ(got.sums, wanted.sums) << TestedKernel<policy>::name << ", input " << i;
+    ASSERT_EQ(got.action, wanted.action) << TestedKernel<policy>::name << ", input " << i;
   }
 }
 
@@ -44,11 +53,11 @@ TEST(Kernel, GivesThePortableBitsForEveryShape) {
 }
 
 TEST(Kernel, GivesThePortableBitsForEveryShapeOfInt8) {
-  expect_same_bits<synthetic_bytes_smallest>();
-  expect_same_bits<synthetic_bytes_odd>();
-  expect_same_bits<synthetic_bytes_rest>();
-  expect_same_bits<synthetic_bytes_paper>();
-  expect_same_bits<synthetic_bytes_wide>();
+  expect_same_bits<synthetic_int8_smallest>();
+  expect_same_bits<synthetic_int8_odd>();
+  expect_same_bits<synthetic_int8_rest>();
+  expect_same_bits<synthetic_int8_paper>();
+  expect_same_bits<synthetic_int8_wide>();
 }
 
 // A byte each, but for what fills a kernel's last words.
@@ -58,7 +67,7 @@ TEST(Kernel, PacksInt8IntoBytes) {
   constexpr std::size_t actions = 3;
   constexpr std::size_t weights = inputs * hidden + hidden * hidden + hidden * actions;
   constexpr std::size_t biases = (hidden + hidden + actions) * sizeof(std::int32_t);
-  EXPECT_LE(Packed<synthetic_bytes_paper>::bytes, weights + biases + 2 * hidden);
+  EXPECT_LE(Packed<synthetic_int8_paper>::bytes, weights + biases + 2 * hidden);
 }
 
 // The scaled input as policy.hpp has it, word by word.

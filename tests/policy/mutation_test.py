@@ -12,8 +12,10 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 POLICY = "firmware/policy/exported/kick.hpp"
-CONTROLLER = "firmware/core/controller.cpp"
-SCALAR = "firmware/policy/kernel/scaling.hpp"
+PILOT = "firmware/core/pilot.hpp"
+NODE = "firmware/loop/built_in_node.cpp"
+ARGMAX = "firmware/policy/kernel/argmax.hpp"
+BRANCH_FREE = "firmware/policy/kernel/branch_free.hpp"
 
 BRANCHING_RELU = """constexpr std::int32_t saturate_relu(std::int32_t value) {
   if (value < 0) {
@@ -33,7 +35,7 @@ def altered_headers(copy, _):
 
 def compiles(copy, _):
     return shell("g++", "-std=c++20", "-fsyntax-only", f"-I{copy}", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"', "-DSTRIKER_POLICY_NAME=kick",
-                 f"{copy}/{CONTROLLER}")
+                 f"{copy}/{NODE}")
 
 
 def host_instructions(copy, _):
@@ -54,16 +56,16 @@ def image(board):
 
 # What is broken, where, what is replaced by what (regular expression), and the test that has to notice.
 MUTATIONS = (
-    ("the overflow proof is not asserted", CONTROLLER, r"static_assert\(sums_fit\(policy\)", "static_assert(true",
+    ("the overflow proof is not asserted", PILOT, r"static_assert\(policy::sums_fit\(policy\)", "static_assert(true",
      altered_headers),
-    ("the identity is not asserted", CONTROLLER, r"static_assert\(identity_of\(policy\) == policy.identity",
+    ("the identity is not asserted", PILOT, r"static_assert\(policy::identity_of\(policy\) == policy.identity",
      "static_assert(true", altered_headers),
     ("a golden vector is gone", POLICY, r"(, )16(> kick)([\s\S]*)\n +\{\.raw = [\s\S]*?\},\n(    \}\},\n\};)",
      r"\g<1>15\2\3\n\4", compiles),
-    ("argmax branches", SCALAR, r"const std::int32_t greater = less_mask\(best, sums\[k\]\);",
+    ("argmax branches", ARGMAX, r"const std::int32_t greater = less_mask\(best, sums\[k\]\);",
      'const std::int32_t greater = less_mask(best, sums[k]);\n    if (greater != 0) {\n      asm volatile("nop");\n    }',
      host_instructions),
-    ("ReLU branches on the Cortex-M0+", SCALAR, r"constexpr std::int32_t saturate_relu\([\s\S]*?\n\}", BRANCHING_RELU,
+    ("ReLU branches on the Cortex-M0+", BRANCH_FREE, r"constexpr std::int32_t saturate_relu\([\s\S]*?\n\}", BRANCHING_RELU,
      image("microbit")),
     ("two weights change places on the Cortex-M4", "firmware/policy/kernel/int16/armv7em.hpp",
      r"half_words\(weight_or_zero\(layer, row, 2 \* p \+ 1\), layer\.weights\[row\]\[2 \* p\]\)",

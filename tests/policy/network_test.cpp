@@ -11,6 +11,7 @@
 
 #include "firmware/policy/built_in.hpp"
 #include "firmware/policy/proof.hpp"
+#include "tests/policy/tested_infer.hpp"
 
 namespace striker::policy {
 namespace {
@@ -54,7 +55,7 @@ std::vector<std::int64_t> reference(const Raw& raw) {
 
 void expect_agreement(const Raw& raw) {
   const auto wanted = reference(raw);
-  const auto got = infer<built_in>(raw);
+  const auto got = tested_infer<built_in>(raw);
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     ASSERT_EQ(got.sums[k], wanted[k]);
   }
@@ -87,7 +88,7 @@ TEST(Network, AgreesWithTheReferenceAtTheEndsOfTheRange) {
 
 TEST(Network, AnswersItsGoldenVectors) {
   for (const auto& golden : built_in.golden_vectors) {
-    const auto q = infer<built_in>(golden.raw);
+    const auto q = tested_infer<built_in>(golden.raw);
     EXPECT_EQ(q.sums, golden.sums);
     EXPECT_EQ(q.action, golden.action);
   }
@@ -102,7 +103,7 @@ TEST(Network, OfEqualActionsTheLowestIsChosen) {
     p.output.biases = {3, 9, 9, 9};
     return p;
   }();
-  EXPECT_EQ(infer<flat>({0}).action, 1);
+  EXPECT_EQ(tested_infer<flat>({0}).action, 1);
 }
 
 // No int8 weights can: there a bias has to.

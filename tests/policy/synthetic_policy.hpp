@@ -89,10 +89,10 @@ inline constexpr auto synthetic_half = synthetic_policy<6, 32, 32, 3>(4);
 inline constexpr auto synthetic_paper = synthetic_policy<6, 64, 64, 3>(5);
 inline constexpr auto synthetic_wide = synthetic_policy<12, 128, 128, 5>(6);
 
-inline constexpr auto synthetic_bytes_smallest = synthetic_policy<1, 1, 1, 2, std::int8_t>(7);
-inline constexpr auto synthetic_bytes_odd = synthetic_policy<7, 13, 11, 5, std::int8_t>(8);
-inline constexpr auto synthetic_bytes_rest = synthetic_policy<9, 38, 27, 6, std::int8_t>(9);
-inline constexpr auto synthetic_bytes_paper = synthetic_policy<6, 64, 64, 3, std::int8_t>(10);
-inline constexpr auto synthetic_bytes_wide = synthetic_policy<12, 128, 128, 5, std::int8_t>(11);
+inline constexpr auto synthetic_int8_smallest = synthetic_policy<1, 1, 1, 2, std::int8_t>(7);
+inline constexpr auto synthetic_int8_odd = synthetic_policy<7, 13, 11, 5, std::int8_t>(8);
+inline constexpr auto synthetic_int8_rest = synthetic_policy<9, 38, 27, 6, std::int8_t>(9);
+inline constexpr auto synthetic_int8_paper = synthetic_policy<6, 64, 64, 3, std::int8_t>(10);
+inline constexpr auto synthetic_int8_wide = synthetic_policy<12, 128, 128, 5, std::int8_t>(11);
 
 }  // namespace striker::policy

@@ -1,7 +1,11 @@
-// Weights as the Arm kernels read them: one stream of words, from front to back, with every word used once.
+// What the packing of layers is made of: a layer's rows become the words that a kernel reads from front to
+// back, each used once. All of it is run by the compiler; only the words reach the image.
 //
-// A group is the rows whose sums are built side by side, so that each activation, once loaded, serves all of
-// them. A group's words: its biases, then for one block of columns after another its rows' weights.
+// The kernels' words: two, four or more rows are a group, whose sums are built side by side, so that each
+// activation, once loaded, serves all of them. A group's words are its biases, and then, for one block of
+// columns after another, its rows' weights. For two rows of three columns, with a half-word a weight:
+//
+//   bias 0, bias 1, (w01 w00), (0 w02), (w11 w10), (0 w12)        (upper lower) half-word of a word
 #pragma once
 
 #include <array>
@@ -12,7 +16,11 @@
 
 namespace striker::policy::kernel {
 
-// One half-word beside the other.
+constexpr std::size_t round_up(std::size_t count, std::size_t multiple) {
+  return (count + multiple - 1) / multiple * multiple;
+}
+
+// Two half-words, side by side in a word.
 constexpr std::uint32_t half_words(std::int32_t high, std::int32_t low) {
   return (static_cast<std::uint32_t>(high) << 16U) | (static_cast<std::uint32_t>(low) & 0xFFFFU);
 }
@@ -24,6 +32,7 @@ constexpr std::int32_t weight_or_zero(const Layer<Inputs, Outputs, Weight>& laye
   return row < Outputs && column < Inputs ? layer.weights[row][column] : 0;
 }
 
+// Fills an array of words from its front.
 template <class Words>
 struct WordWriter {
   Words words{};
@@ -33,20 +42,15 @@ struct WordWriter {
   constexpr void add(std::int32_t word) { add(static_cast<std::uint32_t>(word)); }
 };
 
-// Activations in words of their own, or two in a word.
-template <std::size_t Words>
-struct alignas(8) WordBuffer {
-  std::array<std::uint32_t, Words> words;
-};
-
-// What was stored is in memory by now, for assembly or for loads of another width to read.
-template <class Buffer>
-[[gnu::always_inline]] inline void finish_stores(const Buffer& buffer) {
-  asm volatile("" : : "r"(&buffer) : "memory");
-}
-
-constexpr std::size_t round_up(std::size_t count, std::size_t multiple) {
-  return (count + multiple - 1) / multiple * multiple;
+// A hidden layer's biases with the rounding in them that comes before its shift: one addition fewer a neuron.
+// The proof bounds bias and rounding together.
+template <std::size_t Inputs, std::size_t Outputs, class Weight>
+constexpr std::array<std::int32_t, Outputs> rounded_biases(const Layer<Inputs, Outputs, Weight>& layer) {
+  auto biases = layer.biases;
+  for (std::int32_t& bias : biases) {
+    bias += std::int32_t{1} << (layer.shift - 1);
+  }
+  return biases;
 }
 
 }  // namespace striker::policy::kernel

@@ -1,9 +1,22 @@
-// The kernel for the M-profile Vector Extension (Helium): Cortex-M55.
+// The kernel for int16 weights and the M-profile Vector Extension (Helium): Cortex-M55.
 //
 // VMLADAVA multiplies eight pairs of half-words and adds all products to a general register. VLDM loads four
 // vectors an instruction; four rows share the activations. A hidden layer's sums are rescaled afterwards,
 // eight at a time: VQRSHRN shifts, rounds and saturates, VMAX is ReLU. (Not VQSHRN with the rounding in the
 // bias: GNU as 2.40 assembles it as VQRSHRN.)
+//
+// Weights and activations lie in vectors of 8 columns, the last one filled up with weights of 0. In a group
+// of four rows one block of 4 vectors comes after another, in each the rows one after the other. Of a block
+// of 4 rows and 4 vectors the assembler makes 21 instructions for 128 products:
+//
+//   vldmia r5!, {d8-d15}                             the activations of 32 columns, in q4 to q7
+//   vldmia r3!, {d0-d7}                              row 0's weights of them, in q0 to q3
+//   vmladava.s16 r0, q0, q4      vmladava.s16 r0, q1, q5
+//   vmladava.s16 r0, q2, q6      vmladava.s16 r0, q3, q7
+//                                                    and so for rows 1 to 3, whose sums are in r2, r4 and r6
+//
+// Layers of one vector, and of four, keep their activations in registers for all rows: a group of four rows
+// of one vector is a VLDMIA and four VMLADAVA.
 #pragma once
 
 #include <arm_mve.h>
@@ -13,12 +26,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/policy/kernel/activations.hpp"
+#include "firmware/policy/kernel/kernel.hpp"
 #include "firmware/policy/kernel/packing.hpp"
-#include "firmware/policy/kernel/scaling.hpp"
 
-namespace striker::policy::kernel {
+namespace striker::policy::kernel::int16 {
 
-namespace mve {
+namespace helium {
 
 inline constexpr std::size_t lanes = 8;
 inline constexpr std::size_t block_vectors = 4;
@@ -28,29 +42,34 @@ struct Sums {
   std::int32_t s0, s1, s2, s3;
 };
 
-// The assembler drops what the block's shape does not need.
-#define STRIKER_MVE_ROW(row, sum)                 \
-  ".if %c[rows] > " row                           \
-  "\n\t"                                          \
+// The text of one row of a block, if the block has it. The assembler drops what the block's shape does not
+// need.
+// clang-format off
+#define STRIKER_HELIUM_ROW(row, sum)              \
+  ".if %c[rows] > " row "\n\t"                    \
   "vldmia %[weights]!, {d0-d%c[last_weight]}\n\t" \
-  "vmladava.s16 " sum                             \
-  ", q0, q4\n\t"                                  \
-  ".if %c[vectors] > 1\n\tvmladava.s16 " sum      \
-  ", q1, q5\n\t.endif\n\t"                        \
-  ".if %c[vectors] > 2\n\tvmladava.s16 " sum      \
-  ", q2, q6\n\t.endif\n\t"                        \
-  ".if %c[vectors] > 3\n\tvmladava.s16 " sum      \
-  ", q3, q7\n\t.endif\n\t"                        \
+  "vmladava.s16 " sum ", q0, q4\n\t"              \
+  ".if %c[vectors] > 1\n\t"                       \
+  "vmladava.s16 " sum ", q1, q5\n\t"              \
+  ".endif\n\t"                                    \
+  ".if %c[vectors] > 2\n\t"                       \
+  "vmladava.s16 " sum ", q2, q6\n\t"              \
+  ".endif\n\t"                                    \
+  ".if %c[vectors] > 3\n\t"                       \
+  "vmladava.s16 " sum ", q3, q7\n\t"              \
+  ".endif\n\t"                                    \
   ".endif\n\t"
+// clang-format on
 
-// `Rows` sums take up the next `Vectors` vectors of columns; both at most 4.
+// Adds the products of `Rows` rows and the next `Vectors` vectors of columns to the rows' sums; both are at
+// most 4. VMLADAVA wants its sums in even registers ("Te").
 template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void multiply_block(const std::int16_t*& weights,
                                                   const std::int16_t*& activations, Sums& sums) {
   auto [s0, s1, s2, s3] = sums;
   asm volatile("vldmia %[activations]!, {d8-d%c[last_activation]}\n\t"  //
-               STRIKER_MVE_ROW("0", "%[s0]") STRIKER_MVE_ROW("1", "%[s1]") STRIKER_MVE_ROW("2", "%[s2]")
-                   STRIKER_MVE_ROW("3", "%[s3]")
+               STRIKER_HELIUM_ROW("0", "%[s0]") STRIKER_HELIUM_ROW("1", "%[s1]")
+                   STRIKER_HELIUM_ROW("2", "%[s2]") STRIKER_HELIUM_ROW("3", "%[s3]")
                : [weights] "+r"(weights), [activations] "+r"(activations), [s0] "+Te"(s0), [s1] "+Te"(s1),
                  [s2] "+Te"(s2), [s3] "+Te"(s3)
                : [rows] "i"(Rows), [vectors] "i"(Vectors), [last_weight] "i"(2 * Vectors - 1),
@@ -60,9 +79,10 @@ template <std::size_t Rows, std::size_t Vectors>
   sums = {s0, s1, s2, s3};
 }
 
-#undef STRIKER_MVE_ROW
+#undef STRIKER_HELIUM_ROW
 
-// Four rows of one vector each, which come with one load; the activations stay in their register.
+// Adds the products of four rows of one vector each, all of which one load brings. The activations stay in
+// their register.
 [[gnu::always_inline]] inline void multiply_short_rows(const std::int16_t*& weights, int16x8_t activations,
                                                        Sums& sums) {
   auto [s0, s1, s2, s3] = sums;
@@ -78,7 +98,7 @@ template <std::size_t Rows, std::size_t Vectors>
   sums = {s0, s1, s2, s3};
 }
 
-// A row of four vectors; so do its activations.
+// Adds the products of one row of four vectors. The activations stay in their four registers.
 [[gnu::always_inline]] inline void multiply_held_row(const std::int16_t*& weights,
                                                      const std::array<int16x8_t, block_vectors>& activations,
                                                      std::int32_t& sum) {
@@ -93,8 +113,7 @@ template <std::size_t Rows, std::size_t Vectors>
       : "d0", "d1", "d2", "d3", "d4", "d5", "d6", "d7");
 }
 
-// Four words of a stream, and four into a buffer, with one instruction each. VMLADAVA's sums are in even
-// registers.
+// Four biases with one instruction, into even registers, where VMLADAVA wants its sums.
 [[gnu::always_inline]] inline Sums load_four(const std::int32_t*& from) {
   register std::int32_t s0 asm("r0");
   register std::int32_t s1 asm("r2");
@@ -104,6 +123,8 @@ template <std::size_t Rows, std::size_t Vectors>
                : [from] "+r"(from), "=r"(s0), "=r"(s1), "=r"(s2), "=r"(s3));
   return {s0, s1, s2, s3};
 }
+
+// Four sums into memory, out of the same registers.
 [[gnu::always_inline]] inline void store_four(std::int32_t*& to, const Sums& sums) {
   register std::int32_t s0 asm("r0") = sums.s0;
   register std::int32_t s1 asm("r2") = sums.s1;
@@ -115,6 +136,7 @@ template <std::size_t Rows, std::size_t Vectors>
                : "memory");
 }
 
+// Adds the products of `Rows` rows and all columns, block by block.
 template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void multiply_row_blocks(const std::int16_t*& weights,
                                                        const std::int16_t* activations, Sums& sums) {
@@ -127,7 +149,7 @@ template <std::size_t Rows, std::size_t Vectors>
   }
 }
 
-// All rows' sums, in their order.
+// The sums of all of a layer's rows, in their order.
 template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void layer_sums(const std::int16_t* weights, const std::int16_t* activations,
                                               const std::int32_t* biases, std::int32_t* to) {
@@ -160,8 +182,9 @@ template <std::size_t Rows, std::size_t Vectors>
   }
 }
 
-// Sums as they are stored, eight at a time: rescaled with rounding, not below 0, not above 32767. VQRSHRN
-// shifts by at most 16; it fills every other lane, from two vectors that a de-interleaving load made.
+// Stores sums as activations, eight at a time: rescaled with rounding, not below 0, not above 32767. VQRSHRN
+// shifts by at most 16, so a greater shift begins with an ordinary one. It fills every other lane, from two
+// vectors that a de-interleaving load made.
 template <int shift, std::size_t Count>
 [[gnu::always_inline]] inline void store_all(const std::int32_t* sums, std::int16_t* to) {
   constexpr int last_shift = std::min(shift, 16);
@@ -181,14 +204,15 @@ template <int shift, std::size_t Count>
   }
 }
 
-}  // namespace mve
+}  // namespace helium
 
-struct Mve {
-  static constexpr const char* name = "mve";
+struct Helium {
+  static constexpr const char* name = "int16/helium";
+  static constexpr bool rounds = true;  // by VQRSHRN, in store_all()
 
-  static constexpr std::size_t columns(std::size_t inputs) { return round_up(inputs, mve::lanes); }
+  static constexpr std::size_t columns(std::size_t inputs) { return round_up(inputs, helium::lanes); }
 
-  // Past `Count`, anything: those columns' weights are 0.
+  // What lies past `Count` does not matter: the weights of those columns are 0.
   template <std::size_t Count>
   struct Activations {
     alignas(16) std::array<std::int16_t, columns(Count)> values;
@@ -201,15 +225,15 @@ struct Mve {
     std::array<std::int32_t, Outputs> biases;
   };
 
-  template <std::size_t Inputs, std::size_t Outputs>
+  template <Role, std::size_t Inputs, std::size_t Outputs>
   static constexpr Packed<Inputs, Outputs> pack(const Layer<Inputs, Outputs>& layer,
                                                 const std::array<std::int32_t, Outputs>& biases) {
-    constexpr std::size_t block_columns = mve::lanes * mve::block_vectors;
+    constexpr std::size_t block_columns = helium::lanes * helium::block_vectors;
     Packed<Inputs, Outputs> packed{{}, biases};
     std::size_t at = 0;
-    for (std::size_t first = 0; first < Outputs; first += mve::group_rows) {
+    for (std::size_t first = 0; first < Outputs; first += helium::group_rows) {
       for (std::size_t block = 0; block < columns(Inputs); block += block_columns) {
-        for (std::size_t row = first; row < std::min(first + mve::group_rows, Outputs); ++row) {
+        for (std::size_t row = first; row < std::min(first + helium::group_rows, Outputs); ++row) {
           for (std::size_t i = block; i < std::min(block + block_columns, columns(Inputs)); ++i) {
             packed.weights[at++] = static_cast<std::int16_t>(weight_or_zero(layer, row, i));
           }
@@ -219,32 +243,23 @@ struct Mve {
     return packed;
   }
 
-  template <std::size_t Inputs, std::size_t Outputs>
-  static constexpr Packed<Inputs, Outputs> pack_hidden(const Layer<Inputs, Outputs>& layer) {
-    return pack(layer, layer.biases);
-  }
-  template <std::size_t Inputs, std::size_t Outputs>
-  static constexpr Packed<Inputs, Outputs> pack_output(const Layer<Inputs, Outputs>& layer) {
-    return pack(layer, layer.biases);
-  }
-
   template <int shift, std::size_t Inputs, std::size_t Outputs>
   [[gnu::always_inline]] static void hidden(const Packed<Inputs, Outputs>& layer,
                                             const Activations<Inputs>& in, Activations<Outputs>& out) {
     alignas(16) std::array<std::int32_t, columns(Outputs)> sums;
     finish_stores(in);
-    mve::layer_sums<Outputs, columns(Inputs) / mve::lanes>(layer.weights.data(), in.values.data(),
-                                                           layer.biases.data(), sums.data());
-    mve::store_all<shift, columns(Outputs)>(sums.data(), out.values.data());
+    helium::layer_sums<Outputs, columns(Inputs) / helium::lanes>(layer.weights.data(), in.values.data(),
+                                                                 layer.biases.data(), sums.data());
+    helium::store_all<shift, columns(Outputs)>(sums.data(), out.values.data());
   }
 
   template <std::size_t Inputs, std::size_t Outputs>
   [[gnu::always_inline]] static void sums(const Packed<Inputs, Outputs>& layer, const Activations<Inputs>& in,
                                           std::array<std::int32_t, Outputs>& out) {
     finish_stores(in);
-    mve::layer_sums<Outputs, columns(Inputs) / mve::lanes>(layer.weights.data(), in.values.data(),
-                                                           layer.biases.data(), out.data());
+    helium::layer_sums<Outputs, columns(Inputs) / helium::lanes>(layer.weights.data(), in.values.data(),
+                                                                 layer.biases.data(), out.data());
   }
 };
 
-}  // namespace striker::policy::kernel
+}  // namespace striker::policy::kernel::int16

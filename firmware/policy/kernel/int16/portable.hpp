@@ -1,16 +1,24 @@
 // The kernel in plain C++: the specification as code, for any target and for the compiler itself.
+//
+// The other kernels are tested against it. Programs take it in builds without optimisation, and
+// tools/bench-kernel measures it as "plain". It takes int8 weights too, a byte each.
+//
+// Example: with weights {3, -2}, activations {100, 50}, bias 4 + 2^3 and shift 4 a neuron's sum is 212, and
+// what it stores 13: (204 + 8) >> 4.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/policy/kernel/scaling.hpp"
+#include "firmware/policy/kernel/branch_free.hpp"
+#include "firmware/policy/kernel/kernel.hpp"
 
-namespace striker::policy::kernel {
+namespace striker::policy::kernel::int16 {
 
 struct Portable {
-  static constexpr const char* name = "portable";
+  static constexpr const char* name = "int16/portable";
+  static constexpr bool rounds = false;
 
   template <std::size_t Count>
   struct Activations {
@@ -24,19 +32,10 @@ struct Portable {
     std::array<std::int32_t, Outputs> biases;
   };
 
-  template <std::size_t Inputs, std::size_t Outputs, class Weight>
+  template <Role, std::size_t Inputs, std::size_t Outputs, class Weight>
   static constexpr Packed<Inputs, Outputs, Weight> pack(const Layer<Inputs, Outputs, Weight>& layer,
                                                         const std::array<std::int32_t, Outputs>& biases) {
     return {layer.weights, biases};
-  }
-
-  template <std::size_t Inputs, std::size_t Outputs, class Weight>
-  static constexpr Packed<Inputs, Outputs, Weight> pack_hidden(const Layer<Inputs, Outputs, Weight>& layer) {
-    return pack(layer, rounded_biases(layer));
-  }
-  template <std::size_t Inputs, std::size_t Outputs, class Weight>
-  static constexpr Packed<Inputs, Outputs, Weight> pack_output(const Layer<Inputs, Outputs, Weight>& layer) {
-    return pack(layer, layer.biases);
   }
 
   template <int shift, std::size_t Inputs, std::size_t Outputs, class Weight>
@@ -67,4 +66,4 @@ struct Portable {
   }
 };
 
-}  // namespace striker::policy::kernel
+}  // namespace striker::policy::kernel::int16

@@ -1,7 +1,15 @@
-// The kernel for int8 weights without vectors or the DSP extension: Cortex-M3, M0+ and the host.
+// The kernel for int8 weights in plain C++: Cortex-M3, M0+, the host, and builds without optimisation.
 //
-// Plain loops, each byte loaded with its sign. Four rows share the activations; their weights lie column by
-// column, so that one pointer finds them all.
+// Neither Armv6-M nor Armv7-M widens several bytes at once: each byte is loaded with its sign. Four rows
+// share an activation. Their weights lie column by column, so that one pointer finds them all:
+//
+//   w00 w10 w20 w30, w01 w11 w21 w31, ...                    wRC: row R's weight of column C
+//
+// Of a column of four rows GCC makes 12 instructions on the Cortex-M3, 3 for each product:
+//
+//   ldrsh r1, [r0], #2                                       the activation
+//   ldrsb fp, [r3, #-4]    mla r7, r1, fp, r7                row 0; and so for rows 1 to 3
+//   add   r3, r3, #4       cmp r0, ip     bne                on to the next column
 #pragma once
 
 #include <algorithm>
@@ -9,13 +17,15 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/policy/kernel/int8/byte_rows.hpp"
-#include "firmware/policy/kernel/scaling.hpp"
+#include "firmware/policy/kernel/branch_free.hpp"
+#include "firmware/policy/kernel/int8/row_groups.hpp"
+#include "firmware/policy/kernel/kernel.hpp"
 
-namespace striker::policy::kernel {
+namespace striker::policy::kernel::int8 {
 
-struct Bytes {
-  static constexpr const char* name = "bytes";
+struct Plain {
+  static constexpr const char* name = "int8/plain";
+  static constexpr bool rounds = false;
 
   template <std::size_t Count>
   struct Activations {
@@ -24,16 +34,16 @@ struct Bytes {
   };
 
   template <std::size_t Inputs, std::size_t Outputs>
-  using Packed = ByteRows<Inputs, Outputs>;
+  using Packed = RowGroups<Inputs, Outputs>;
 
-  template <std::size_t Inputs, std::size_t Outputs>
+  template <Role, std::size_t Inputs, std::size_t Outputs>
   static constexpr Packed<Inputs, Outputs> pack(const Layer<Inputs, Outputs, std::int8_t>& layer,
                                                 const std::array<std::int32_t, Outputs>& biases) {
     Packed<Inputs, Outputs> packed{{}, biases};
     std::size_t at = 0;
-    for (std::size_t first = 0; first < Outputs; first += byte_group_rows) {
+    for (std::size_t first = 0; first < Outputs; first += group_rows) {
       for (std::size_t column = 0; column < Inputs; ++column) {
-        for (std::size_t row = first; row < std::min(first + byte_group_rows, Outputs); ++row) {
+        for (std::size_t row = first; row < std::min(first + group_rows, Outputs); ++row) {
           packed.weights[at++] = layer.weights[row][column];
         }
       }
@@ -41,28 +51,20 @@ struct Bytes {
     return packed;
   }
 
-  template <std::size_t Inputs, std::size_t Outputs>
-  static constexpr Packed<Inputs, Outputs> pack_hidden(const Layer<Inputs, Outputs, std::int8_t>& layer) {
-    return pack(layer, rounded_biases(layer));
-  }
-  template <std::size_t Inputs, std::size_t Outputs>
-  static constexpr Packed<Inputs, Outputs> pack_output(const Layer<Inputs, Outputs, std::int8_t>& layer) {
-    return pack(layer, layer.biases);
-  }
-
   template <int shift, std::size_t Inputs, std::size_t Outputs>
   [[gnu::always_inline]] static void hidden(const Packed<Inputs, Outputs>& layer,
                                             const Activations<Inputs>& in, Activations<Outputs>& out) {
-    each_sum<Bytes>(layer, in,
+    each_sum<Plain>(layer, in,
                     [&out](std::size_t row, std::int32_t sum) { out.set(row, saturate_relu(sum >> shift)); });
   }
 
   template <std::size_t Inputs, std::size_t Outputs>
   [[gnu::always_inline]] static void sums(const Packed<Inputs, Outputs>& layer, const Activations<Inputs>& in,
                                           std::array<std::int32_t, Outputs>& out) {
-    each_sum<Bytes>(layer, in, [&out](std::size_t row, std::int32_t sum) { out[row] = sum; });
+    each_sum<Plain>(layer, in, [&out](std::size_t row, std::int32_t sum) { out[row] = sum; });
   }
 
+  // A group's weights lie column by column.
   template <std::size_t Rows, std::size_t Inputs>
   [[gnu::always_inline]] static void add_products(std::array<std::int32_t, Rows>& sums,
                                                   const std::int8_t* weights, const Activations<Inputs>& in) {
@@ -76,4 +78,4 @@ struct Bytes {
   }
 };
 
-}  // namespace striker::policy::kernel
+}  // namespace striker::policy::kernel::int8

@@ -1,0 +1,151 @@
+// Three roles and two policies in one program: each controller's run of its own, as a hash of every frame that
+// it sent, on every target as on the host.
+//
+//   striker-roles
+//
+// Exit status 0 if each hash is the one written down here, ten copies stepped in turn gave what one gives, and
+// the robot that the built-in policy is too fast for refused it.
+#include <array>
+#include <cstdint>
+
+#include "firmware/can/codec.hpp"
+#include "firmware/can/drives/striker_drives.hpp"
+#include "firmware/core/controller.hpp"
+#include "firmware/loop/controller_node.hpp"
+#include "firmware/policy/exported/kick.hpp"
+#include "tests/images/console.hpp"
+#include "tests/policy/wander_policy.hpp"
+
+namespace {
+
+using namespace striker;
+
+using Kick = core::Pilot<policy::kick>;
+using Wander = core::Pilot<policy::wander>;
+template <class Pilot>
+using Node = loop::ControllerNode<core::Controller<Pilot>, can::StrikerDrives>;
+
+constexpr core::RobotProfile forward = core::profile_of(core::forward);
+constexpr core::RobotProfile defender = core::profile_of(core::defender);
+constexpr core::RobotProfile goalkeeper = core::profile_of(core::goalkeeper);
+
+static_assert(Kick::suits(forward) && !Kick::suits(defender) && !Kick::suits(goalkeeper));
+static_assert(Wander::suits(forward) && Wander::suits(defender) && Wander::suits(goalkeeper));
+
+constexpr std::uint32_t run_ticks = 2'000;
+
+// A robot around a node: wheels that follow the torque, a ball that comes and goes, an operator who arms.
+template <class Pilot>
+class Robot {
+ public:
+  explicit Robot(const core::RobotProfile& robot) : node_(robot) {}
+
+  void tick() {
+    std::array<can::Frame, 4> frames;
+    std::size_t count = 0;
+    if (now_ % 50 == 0) {
+      const auto number = static_cast<std::int32_t>(now_ / 50 % 16);
+      const auto phase = static_cast<std::int32_t>(now_ % 1500);
+      frames[count++] = can::send(can::VisionPose{.frame = number, .heading = 40 * phase - 30'000}, pose_);
+      frames[count++] = can::send(
+          can::VisionBall{
+              .frame = number, .x_quarter_mm = 8000 - 8 * phase, .y_quarter_mm = 3 * phase - 2000},
+          ball_);
+    }
+    frames[count++] = can::send(wheels_, wheel_counter_);
+    if (now_ == 160) {
+      frames[count++] = can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(can::Mode::arm)}, mode_);
+    }
+    node_.step({.number = now_, .frames = std::span(frames).first(count)}, sent_);
+    for (const can::Frame& frame : sent_.frames()) {
+      take(frame);
+    }
+    ++now_;
+  }
+
+  void run() {
+    while (now_ < run_ticks) {
+      tick();
+    }
+  }
+
+  [[nodiscard]] std::uint32_t hash() const { return hash_.value(); }
+  [[nodiscard]] std::uint32_t decisions() const { return node_.controller().pilot().decisions(); }
+  [[nodiscard]] core::Fault fault() const { return node_.controller().fault(); }
+
+ private:
+  void take(const can::Frame& frame) {
+    hash_.add(frame.id);
+    for (const std::uint8_t byte : frame.data) {
+      hash_.add(byte);
+    }
+    can::WheelCommand command;
+    if (can::is<can::WheelCommand>(frame) && can::unpack(frame, command) == can::Verdict::accepted) {
+      wheels_.left_mm_s += command.left_torque_mNm / 36;
+      wheels_.right_mm_s += command.right_torque_mNm / 36;
+    }
+  }
+
+  Node<Pilot> node_;
+  can::FrameList sent_;
+  policy::proof::Fnv1a hash_;
+  std::uint32_t now_ = 0;
+  can::WheelState wheels_;
+  can::SendCounter pose_, ball_, wheel_counter_, mode_;
+};
+
+int failures = 0;
+
+void expect(const char* name, std::uint32_t value, std::uint32_t wanted) {
+  images::console::print_line(name, value);
+  if (value != wanted) {
+    images::console::print_line("  but wanted", wanted);
+    ++failures;
+  }
+}
+
+template <class Pilot>
+void expect_run(const char* name, const core::RobotProfile& profile, std::uint32_t wanted) {
+  Robot<Pilot> robot(profile);
+  robot.run();
+  expect(name, robot.hash(), wanted);
+  if (robot.decisions() < 30 || robot.fault() != core::Fault::none) {
+    images::console::print("  but it hardly drove\n");
+    ++failures;
+  }
+}
+
+// Stepped in turn, they share the program but no state.
+void expect_ten_copies(std::uint32_t wanted) {
+  static std::array<Robot<Wander>, 5> defenders = {Robot<Wander>(defender), Robot<Wander>(defender),
+                                                   Robot<Wander>(defender), Robot<Wander>(defender),
+                                                   Robot<Wander>(defender)};
+  static std::array<Robot<Wander>, 5> goalkeepers = {Robot<Wander>(goalkeeper), Robot<Wander>(goalkeeper),
+                                                     Robot<Wander>(goalkeeper), Robot<Wander>(goalkeeper),
+                                                     Robot<Wander>(goalkeeper)};
+  for (std::uint32_t tick = 0; tick < run_ticks; ++tick) {
+    for (std::size_t i = 0; i < defenders.size(); ++i) {
+      goalkeepers[i].tick();
+      defenders[i].tick();
+    }
+  }
+  for (const Robot<Wander>& robot : defenders) {
+    expect("defender, wander, one of ten", robot.hash(), wanted);
+  }
+}
+
+}  // namespace
+
+int main() {
+  constexpr std::uint32_t defender_wander = 115571219;
+  expect_run<Kick>("forward, kick", forward, 328901476);
+  expect_run<Wander>("forward, wander", forward, 674210583);
+  expect_run<Wander>("defender, wander", defender, defender_wander);
+  expect_run<Wander>("goalkeeper, wander", goalkeeper, 1959251392);
+  expect_ten_copies(defender_wander);
+  Robot<Kick> too_fast(goalkeeper);
+  too_fast.run();
+  expect("goalkeeper, kick", static_cast<std::uint32_t>(too_fast.fault()),
+         static_cast<std::uint32_t>(core::Fault::self_test_failed));
+  images::console::exit(failures == 0 ? 0 : 1);
+}
