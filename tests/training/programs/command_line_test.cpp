@@ -80,10 +80,10 @@ TEST_F(CommandLine, TrainEvaluateExportTwiceGivesTheSameBytes) {
         run(fmt::format("{} --config {} --seed 3 --out {}", STRIKER_TRAIN, config, path(out)));
     ASSERT_EQ(trained.code, 0) << trained.err;
     const std::string model = path(out) + "/model.safetensors";
-    ASSERT_EQ(
-        run(fmt::format("{} {} -o {}.hpp --report {}.json", STRIKER_EXPORT, model, path(out), path(out)))
-            .code,
-        0);
+    ASSERT_EQ(run(fmt::format("{} {} --name kick -o {}.hpp --report {}.json", STRIKER_EXPORT, model,
+                              path(out), path(out)))
+                  .code,
+              0);
   }
   EXPECT_EQ(content_of(path("a") + "/model.safetensors"), content_of(path("b") + "/model.safetensors"));
   EXPECT_EQ(content_of(path("a.hpp")), content_of(path("b.hpp")));
