@@ -17,6 +17,7 @@ std::string bus_problem(const std::string& bus) {
 
 std::vector<std::string> plant_names() {
   std::vector<std::string> names;
+  names.reserve(plant_kinds.size());
   for (const PlantKind kind : plant_kinds) {
     names.emplace_back(name_of(kind));
   }

@@ -97,9 +97,8 @@ TEST(Observer, SeesTheRobotHeldAndTheBallLedUntilDecision0) {
 // A picture is taken before the world moves: it shows what the tick before has left, as far as its counts can.
 TEST(Observer, SeesWhatTheCameraSeesWithoutItsRounding) {
   const Diary diary = watch();
-  std::size_t picture = 0;
   for (std::uint32_t i = lead_ticks + 50; i < episode_ticks; i += 50) {
-    picture = 2 * (i / 50);
+    const std::size_t picture = std::size_t{2} * (i / 50);
     can::ReceiveCounter any;
     can::VisionPose pose;
     can::VisionBall ball;

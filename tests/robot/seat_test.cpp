@@ -30,6 +30,7 @@ constexpr std::uint16_t id = can::layout<Message>.info.id;
 
 std::vector<std::uint16_t> identifiers(const std::vector<can::Frame>& frames) {
   std::vector<std::uint16_t> ids;
+  ids.reserve(frames.size());
   for (const can::Frame& frame : frames) {
     ids.push_back(frame.id);
   }
