@@ -5,7 +5,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "firmware/can/e2e.hpp"
 #include "firmware/can/frame.hpp"
@@ -13,6 +15,7 @@
 
 namespace striker::can {
 
+// What a receive check found: the first that failed, in the order in which they are made.
 enum class Verdict : std::uint8_t { accepted, wrong_length, wrong_crc, wrong_counter, out_of_range };
 
 // A sender's E2E counter for one message.
@@ -29,18 +32,46 @@ struct ReceiveCounter {
 
 namespace detail {
 
-constexpr std::uint64_t payload_of(const Frame& frame) {
-  std::uint64_t payload = 0;
-  for (std::size_t byte = 0; byte < 8; ++byte) {
-    payload |= std::uint64_t{frame.data[byte]} << (8 * byte);
-  }
-  return payload;
+// Bit 0 of a payload is the lowest of byte 0: a little-endian processor loads it as it is.
+static_assert(std::endian::native == std::endian::little);
+
+template <class Message, std::size_t i>
+constexpr std::int32_t extract(std::uint64_t payload) {
+  constexpr const auto& signal = layout<Message>.signals[i];
+  const auto raw = static_cast<std::uint32_t>((payload >> signal.first_bit) & bit_mask(signal.bits));
+  constexpr std::uint32_t sign = signal.is_signed ? std::uint32_t{1} << (signal.bits - 1) : 0;
+  return static_cast<std::int32_t>((raw ^ sign) - sign);
 }
 
-constexpr std::int32_t extract(std::uint64_t payload, unsigned first_bit, unsigned bits, bool is_signed) {
-  const auto raw = static_cast<std::uint32_t>((payload >> first_bit) & bit_mask(bits));
-  const std::uint32_t sign = is_signed ? std::uint32_t{1} << (bits - 1) : 0;
-  return static_cast<std::int32_t>((raw ^ sign) - sign);
+// False if the value is outside the signal's range.
+template <class Message, std::size_t i>
+constexpr bool take_signal(std::uint64_t payload, Message& message) {
+  constexpr const auto& signal = layout<Message>.signals[i];
+  const std::int32_t value = extract<Message, i>(payload);
+  message.*signal.field = value;
+  return value >= signal.minimum && value <= signal.maximum;
+}
+
+template <class Message, std::size_t i>
+constexpr std::uint64_t put_signal(const Message& message) {
+  constexpr const auto& signal = layout<Message>.signals[i];
+  const std::int32_t value = std::clamp(message.*signal.field, signal.minimum, signal.maximum);
+  return (static_cast<std::uint64_t>(value) & bit_mask(signal.bits)) << signal.first_bit;
+}
+
+// The signals of a message, one after the other, each with its bits known to the compiler: shifts and masks of
+// 64 bits by amounts in a table are calls on the small cores.
+template <class Message>
+using SignalIndices = std::make_index_sequence<layout<Message>.signals.size()>;
+
+template <class Message, std::size_t... i>
+constexpr bool take_signals(std::uint64_t payload, Message& message, std::index_sequence<i...>) {
+  return (take_signal<Message, i>(payload, message) && ...);
+}
+
+template <class Message, std::size_t... i>
+constexpr std::uint64_t put_signals(const Message& message, std::index_sequence<i...>) {
+  return (put_signal<Message, i>(message) | ...);
 }
 
 constexpr bool counter_follows(ReceiveCounter& memory, std::uint8_t counter) {
@@ -55,17 +86,9 @@ constexpr bool counter_follows(ReceiveCounter& memory, std::uint8_t counter) {
 // Values outside a signal's range are sent as its nearest end.
 template <class Message>
 [[nodiscard]] constexpr Frame pack(const Message& message) {
-  constexpr const auto& table = layout<Message>;
-  std::uint64_t payload = 0;
-  for (const auto& signal : table.signals) {
-    const std::int32_t value = std::clamp(message.*signal.field, signal.minimum, signal.maximum);
-    payload |= (static_cast<std::uint64_t>(value) & detail::bit_mask(signal.bits)) << signal.first_bit;
-  }
-  Frame frame{table.info.id, table.info.length, {}};
-  for (std::size_t byte = 0; byte < 8; ++byte) {
-    frame.data[byte] = static_cast<std::uint8_t>((payload >> (8 * byte)) & 0xFFU);
-  }
-  return frame;
+  constexpr const MessageInfo& info = layout<Message>.info;
+  const std::uint64_t payload = detail::put_signals(message, detail::SignalIndices<Message>{});
+  return {info.id, info.length, std::bit_cast<std::array<std::uint8_t, 8>>(payload)};
 }
 
 template <class Message>
@@ -85,14 +108,10 @@ template <class Message>
   if (frame.length != table.info.length) {
     return Verdict::wrong_length;
   }
-  const std::uint64_t payload = detail::payload_of(frame);
+  const auto payload = std::bit_cast<std::uint64_t>(frame.data);
   Message taken;
-  for (const auto& signal : table.signals) {
-    const std::int32_t value = detail::extract(payload, signal.first_bit, signal.bits, signal.is_signed);
-    if (value < signal.minimum || value > signal.maximum) {
-      return Verdict::out_of_range;
-    }
-    taken.*signal.field = value;
+  if (!detail::take_signals(payload, taken, detail::SignalIndices<Message>{})) {
+    return Verdict::out_of_range;
   }
   message = taken;
   return Verdict::accepted;

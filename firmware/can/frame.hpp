@@ -10,9 +10,11 @@ namespace striker::can {
 struct Frame {
   std::uint16_t id = 0;
   std::uint8_t length = 0;
-  std::array<std::uint8_t, 8> data{};
+  alignas(4) std::array<std::uint8_t, 8> data{};  // read and written as two words
 
   bool operator==(const Frame&) const = default;
 };
+
+static_assert(sizeof(Frame) == 12);
 
 }  // namespace striker::can

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -19,10 +20,36 @@ struct Decimal {
   std::int32_t exponent = 0;
 };
 
+namespace units {
+inline constexpr Decimal one = {1, 0};
+inline constexpr Decimal two = {2, 0};
+inline constexpr Decimal quarter = {25, -2};
+inline constexpr Decimal circle_65536th_deg = {54931640625, -13};
+inline constexpr Decimal one_256th = {390625, -8};
+}  // namespace units
+
+inline constexpr std::int32_t greatest_31_bits = std::numeric_limits<std::int32_t>::max();
+
 struct NamedValue {
   std::int32_t raw;
   std::string_view name;
 };
+
+// The values of an enumeration that counts from 0, from its names.
+template <std::size_t Count>
+[[nodiscard]] constexpr std::array<NamedValue, Count> named_values(
+    const std::array<std::string_view, Count>& names) {
+  std::array<NamedValue, Count> values{};
+  for (std::size_t i = 0; i < Count; ++i) {
+    values[i] = {static_cast<std::int32_t>(i), names[i]};
+  }
+  return values;
+}
+
+template <std::size_t Count>
+[[nodiscard]] constexpr std::int32_t last_of(const std::array<NamedValue, Count>& values) {
+  return values.back().raw;
+}
 
 template <class Message>
 struct Signal {
@@ -30,9 +57,9 @@ struct Signal {
   std::int32_t Message::*field;
   std::uint8_t first_bit;
   std::uint8_t bits;  // 1 to 31 unsigned, 2 to 32 signed
-  bool is_signed;
-  std::int32_t minimum;  // raw; a receiver ignores a message with any signal outside
-  std::int32_t maximum;
+  bool is_signed = false;
+  std::int32_t minimum = 0;  // raw; a receiver ignores a message with any signal outside
+  std::int32_t maximum = 0;
   Decimal scale = {};
   std::string_view unit = {};
   std::span<const NamedValue> values = {};
@@ -69,10 +96,10 @@ struct MessageInfo {
   std::uint16_t id;
   std::uint8_t length;
   Node sender;
-  std::uint16_t period_ms;   // 0: on events
-  std::uint16_t timeout_ms;  // a receiver's freshness limit; 0: none
-  std::uint16_t data_id;     // E2E data ID, or `unprotected`
-  std::string_view comment;
+  std::uint16_t period_ms = 0;          // 0: on events
+  std::uint16_t timeout_ms = 0;         // a receiver's freshness limit; 0: none
+  std::uint16_t data_id = unprotected;  // for E2E
+  std::string_view comment = {};
   Traffic traffic = {};
 };
 
@@ -82,7 +109,7 @@ struct Layout {
   std::array<Signal<Message>, Signals> signals;
 };
 
-// Specialised once for every message, in messages.hpp.
+// Specialised once for every message, beside it in messages/.
 template <class Message>
 inline constexpr auto layout = nullptr;
 

@@ -1,131 +1,192 @@
-// The kick controller: one `step` a tick of 1 ms, from frames in to frames out.
+// The controller of one robot: one `step` a tick of 1 ms, from what is perceived to what the wheels do.
 //
-//   take frames -> estimate -> supervise -> every 50 ticks: relative state -> Q network -> action
-//   -> wheel-speed loops -> independent check of the command -> frames out
+//   sense -> supervise -> every 50 ticks: relative state -> policy -> set-point -> wheel loops -> final check
 //
 // Integers only, no heap, no clock, no I/O, no statics: all state is in the object, which may be copied (a
-// copy goes on alone, with the same answers). One thread at a time. Never fails: what goes wrong becomes a
-// latched fault and torque 0.
+// copy goes on alone, with the same answers). One thread at a time. It never fails: what goes wrong becomes
+// a latched fault and torque 0. It knows no frames: firmware/can makes percepts of them, and frames of what
+// it says; firmware/loop puts the two around it.
 //
-// Arming wants state standby, two vision pairs since the last disarm, and fresh wheel states. Disarming, not
-// arming, resets the estimator: so the two pairs that arming waits for give the first decision its velocity,
-// and nothing from before the disarm can.
+//   Controller<Pilot<policy::kick>> controller(profile_of(forward));
+//   Actions actions;
+//   for (;;) {                                     // once a tick
+//     controller.step({.tick = now, .percepts = percepts}, actions);
+//     drives.set(actions.drive);                   // torque 0 unless actions.state is active
+//   }
+//
+// Ticks are logical and count milliseconds. One that jumps forward is a port that missed periods: what was
+// fresh ages by the jump. The same tick twice lets no time pass: a port uses it to hand in a fault or a stop
+// between two ticks.
+//
+// Arming wants state standby, two pictures since the last disarm, and fresh wheel speeds. Disarming, not
+// arming, forgets the pictures: so the two that arming waits for give the first decision its velocity, and
+// nothing from before the disarm can. A port's stop is a disarm in every respect.
+//
+// Cost: instructions a step on every core are in firmware/policy/README.md; the longest is one with a
+// decision.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <type_traits>
 
-#include "firmware/can/codec.hpp"
+#include "firmware/core/actions.hpp"
 #include "firmware/core/command_check.hpp"
-#include "firmware/core/estimator.hpp"
-#include "firmware/core/inbox.hpp"
-#include "firmware/core/relative_state.hpp"
+#include "firmware/core/decision_clock.hpp"
+#include "firmware/core/estimation/estimator.hpp"
+#include "firmware/core/estimation/relative_state.hpp"
+#include "firmware/core/freshness.hpp"
+#include "firmware/core/percepts.hpp"
+#include "firmware/core/pilot.hpp"
+#include "firmware/core/robot_profile.hpp"
 #include "firmware/core/supervisor.hpp"
 #include "firmware/core/wheel_loop.hpp"
 
 namespace striker::core {
 
-inline constexpr std::uint32_t decision_period_ticks = 50;
-
-// A vision pair this near to the expected time restarts the decision period.
-inline constexpr std::uint32_t decision_window_ticks = 5;
+// A pressed stop holds this long after its last frame, so that a clear cannot overtake a button that repeats.
+inline constexpr std::uint32_t stop_hold_ticks = 200;
 
 struct Inputs {
-  std::uint32_t tick = 0;  // logical time in ms; may jump forward when a port misses periods
-  std::span<const can::Frame> frames;
-  can::Timing timing = {};  // what the port measured; not available by default
+  std::uint32_t tick = 0;
+  Percepts percepts;
+  Fault port_fault = Fault::none;  // what the port sees now: overrun, bus_off, sync_lost
+  bool stop = false;               // the port stops: to standby, with torque 0
 };
 
-class Outputs {
- public:
-  void clear() { count_ = 0; }
-  void add(const can::Frame& frame) { frames_[count_++] = frame; }
-  // In the order of sending; after a step, the wheel command is the last.
-  [[nodiscard]] std::span<const can::Frame> frames() const { return std::span(frames_).first(count_); }
-
- private:
-  std::array<can::Frame, 8> frames_{};  // one of each message that the controller sends, and to spare
-  std::size_t count_ = 0;
-};
-
-// What was last decided, for telemetry and tests.
-struct DecisionRecord {
-  std::uint32_t number = 0;  // decisions since arming
-  std::uint8_t action = 0;
-  bool extrapolated = false;
-  std::array<std::int32_t, policy::greatest_inputs>
-      inputs{};  // of the network; as many as `policy_inputs` names
-};
-
-// What the built-in policy reads, in the order of its inputs.
-[[nodiscard]] std::span<const policy::StateInput> policy_inputs();
-
+template <class PilotType>
 class Controller {
  public:
-  void step(const Inputs& inputs, Outputs& outputs);
+  using Pilot = PilotType;
 
-  // For a port: latches a fault that the core cannot see, and puts out its report and torque 0.
-  void enter_fault(can::Fault fault, Outputs& outputs);
+  explicit constexpr Controller(const RobotProfile& robot) : robot_(robot) {}
 
-  // For a port that stops: to standby at once, with torque 0 put out.
-  void disarm(Outputs& outputs);
+  void step(const Inputs& inputs, Actions& actions) {
+    tick_ = inputs.tick;
+    Requests requests = inputs.percepts.requests;
+    requests.disarm = requests.disarm || inputs.stop;
+    const bool new_picture = sense(inputs.percepts, requests.disarm);
+    const Conditions now = conditions(requests, inputs.port_fault);
+    adopt(supervise(supervisor_, now));
+    actions.decision = decide(new_picture);
+    actions.drive = drive(now);
+    report(now, actions);
+  }
 
-  [[nodiscard]] can::State state() const { return supervisor_.state; }
-  [[nodiscard]] can::Fault fault() const { return supervisor_.fault; }
-  [[nodiscard]] const DecisionRecord& last_decision() const { return decision_; }
-  [[nodiscard]] const IgnoredFrames& ignored() const { return inbox_.ignored(); }
+  [[nodiscard]] State state() const { return supervisor_.state; }
+  [[nodiscard]] Fault fault() const { return supervisor_.fault; }
+  [[nodiscard]] const PilotType& pilot() const { return pilot_; }
+  [[nodiscard]] const RobotProfile& robot() const { return robot_; }
 
  private:
-  struct SendCounters {
-    can::SendCounter fault_report;
-    can::SendCounter status;
-    can::SendCounter wheel_command;
-  };
+  // True if a picture was completed.
+  bool sense(const Percepts& percepts, bool disarm) {
+    if (supervisor_.state == State::boot) {
+      boot_tick_ = tick_;
+    }
+    if (disarm) {
+      estimator_.reset();
+      vision_ = {};
+    }
+    if (percepts.emergency_stop) {
+      stop_.feed(tick_);
+    }
+    if (percepts.wheels) {
+      wheels_.feed(tick_);
+      measured_ = *percepts.wheels;
+      estimator_.take(measured_);
+    }
+    if (percepts.robot) {
+      estimator_.take(*percepts.robot);
+    }
+    if (percepts.ball) {
+      estimator_.take(*percepts.ball);
+    }
+    const bool new_picture = estimator_.end_tick(tick_);
+    if (new_picture) {
+      vision_.feed(tick_);
+    }
+    return new_picture;
+  }
 
-  // When each periodic message last went out.
-  struct Sent {
-    Freshness fault_report;
-    Freshness status;
-    Freshness timing;
-    Freshness heartbeat;
-    Freshness version;
-  };
+  Conditions conditions(const Requests& requests, Fault port_fault) {
+    const bool vision_fresh = vision_.within(tick_, vision_timeout_ticks);
+    return {.self_test = pilot_.test_self(robot_),
+            .requests = requests,
+            .emergency_stop = stop_.within(tick_, stop_hold_ticks),
+            .port_fault = port_fault,
+            .vision_fresh = vision_fresh,
+            .vision_ready = vision_fresh && estimator_.has_velocity(),
+            .wheels_fresh = wheels_.within(tick_, wheel_timeout_ticks)};
+  }
 
-  void run_self_test();
-  void supervise_tick(const Requests& requests);
-  void decide_if_due(bool new_pair, Outputs& outputs);
-  void remember(const RelativeState& state);
-  void decide(bool extrapolated, Outputs& outputs);
-  [[nodiscard]] can::WheelCommand drive();
-  [[nodiscard]] DriveFacts drive_facts() const;
-  void report(const can::Timing& timing, Outputs& outputs);
-  void report_fault(Outputs& outputs);
-  void report_status(Outputs& outputs);
+  // The only place where a state begins: faults get their stamp, and arming begins anew.
+  void adopt(const Supervisor& next) {
+    if (next.fault != supervisor_.fault) {
+      fault_tick_ = tick_;
+    }
+    if (next.state == State::active && supervisor_.state != State::active) {
+      clock_.restart();
+      pilot_.reset();
+      loops_.reset();
+    }
+    supervisor_ = next;
+  }
 
+  std::optional<Decision> decide(bool new_picture) {
+    if (supervisor_.state != State::active) {
+      return std::nullopt;
+    }
+    const DecisionDue due = clock_.at(tick_, new_picture);
+    if (due == DecisionDue::no) {
+      return std::nullopt;
+    }
+    return pilot_.decide(relative_state(estimator_.at(tick_)), due == DecisionDue::extrapolated);
+  }
+
+  DriveCommand drive(const Conditions& now) {
+    if (supervisor_.state != State::active || !clock_.started()) {
+      return {};
+    }
+    const DriveCommand wanted{.torque = loops_.step(robot_, pilot_.set_point(), measured_),
+                              .set_point = pilot_.set_point()};
+    const Fault refused = check_command(robot_, wanted,
+                                        {.armed = supervisor_.fault == Fault::none,
+                                         .vision_fresh = now.vision_fresh,
+                                         .wheels_fresh = now.wheels_fresh,
+                                         .measured = measured_});
+    if (refused == Fault::none) {
+      return wanted;
+    }
+    adopt(latch(supervisor_, refused));
+    return {};
+  }
+
+  void report(const Conditions& now, Actions& actions) const {
+    actions.state = supervisor_.state;
+    actions.fault = supervisor_.fault;
+    actions.fault_tick = fault_tick_;
+    actions.uptime_ticks = tick_ - boot_tick_;
+    actions.vision_ready = now.vision_ready;
+    actions.wheels_ready = now.wheels_fresh;
+  }
+
+  RobotProfile robot_;
   std::uint32_t tick_ = 0;
   std::uint32_t boot_tick_ = 0;
-  Inbox inbox_;
-  Estimator estimator_;
-  Freshness vision_;  // complete pairs
-  SelfTest self_test_ = SelfTest::running;
-  std::size_t self_tested_ = 0;  // golden vectors that passed
   Supervisor supervisor_;
-  Supervisor reported_;  // as last told in a status
   std::uint32_t fault_tick_ = 0;
 
-  bool awaits_first_pair_ = true;
-  std::uint32_t decision_tick_ = 0;
-  DecisionRecord decision_;
-  std::array<RelativeState, policy::greatest_look_back + 1> history_{};  // of the decisions, the newest first
-  std::int32_t left_set_point_mm_s_ = 0;
-  std::int32_t right_set_point_mm_s_ = 0;
-  WheelLoop left_loop_;
-  WheelLoop right_loop_;
+  Estimator estimator_;
+  WheelSpeeds measured_;
+  Freshness vision_;  // complete pictures
+  Freshness wheels_;
+  Freshness stop_;
 
-  SendCounters counters_;
-  Sent sent_;
+  DecisionClock clock_;
+  PilotType pilot_;
+  WheelLoops loops_;
+
+  static_assert(std::is_trivially_copyable_v<PilotType>);
 };
 
 }  // namespace striker::core

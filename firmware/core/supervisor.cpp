@@ -4,9 +4,6 @@ namespace striker::core {
 
 namespace {
 
-using can::Fault;
-using can::State;
-
 // The most urgent cause that this tick shows in this state.
 Fault cause_of_fault(State state, const Conditions& conditions) {
   if (conditions.self_test == SelfTest::failed) {
@@ -15,8 +12,11 @@ Fault cause_of_fault(State state, const Conditions& conditions) {
   if (conditions.emergency_stop) {
     return Fault::emergency_stop;
   }
+  if (conditions.port_fault != Fault::none) {
+    return conditions.port_fault;
+  }
   // A disarm takes the torque anyway, and makes the vision stale by itself.
-  const bool needs_inputs = state == State::active && !conditions.disarm;
+  const bool needs_inputs = state == State::active && !conditions.requests.disarm;
   if (needs_inputs && !conditions.vision_fresh) {
     return Fault::vision_lost;
   }
@@ -37,7 +37,7 @@ bool cause_lasts(Fault fault, const Conditions& conditions) {
     case Fault::wheel_state_lost:
       return !conditions.wheels_fresh;
     default:
-      return false;
+      return fault == conditions.port_fault;
   }
 }
 
@@ -46,7 +46,7 @@ bool cause_lasts(Fault fault, const Conditions& conditions) {
 Supervisor supervise(const Supervisor& now, const Conditions& conditions) {
   const State tested = conditions.self_test == SelfTest::passed ? State::standby : State::self_test;
   if (now.state == State::fault) {
-    const bool cleared = conditions.clear && !cause_lasts(now.fault, conditions) &&
+    const bool cleared = conditions.requests.clear && !cause_lasts(now.fault, conditions) &&
                          cause_of_fault(State::standby, conditions) == Fault::none;
     return cleared ? Supervisor{tested, Fault::none} : now;
   }
@@ -60,12 +60,13 @@ Supervisor supervise(const Supervisor& now, const Conditions& conditions) {
     case State::self_test:
       return {tested, Fault::none};
     case State::standby:
-      return {conditions.arm && !conditions.disarm && conditions.vision_ready && conditions.wheels_fresh
+      return {conditions.requests.arm && !conditions.requests.disarm && conditions.vision_ready &&
+                      conditions.wheels_fresh
                   ? State::active
                   : State::standby,
               Fault::none};
     case State::active:
-      return {conditions.disarm ? State::standby : State::active, Fault::none};
+      return {conditions.requests.disarm ? State::standby : State::active, Fault::none};
     case State::fault:
       break;
   }

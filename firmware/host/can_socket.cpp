@@ -36,6 +36,25 @@ std::vector<can_filter> filters_for(std::span<const std::uint16_t> identifiers) 
   return filters;
 }
 
+// What an error frame says of the controller's state (linux/can/error.h).
+can::BusHealth health_after(const can_frame& error, can::BusHealth before) {
+  if ((error.can_id & CAN_ERR_BUSOFF) != 0) {
+    return can::BusHealth::bus_off;
+  }
+  if ((error.can_id & CAN_ERR_RESTARTED) != 0) {
+    return can::BusHealth::active;
+  }
+  if ((error.can_id & CAN_ERR_CRTL) != 0) {
+    if ((error.data[1] & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) != 0) {
+      return can::BusHealth::error_passive;
+    }
+    if ((error.data[1] & CAN_ERR_CRTL_ACTIVE) != 0) {
+      return can::BusHealth::active;
+    }
+  }
+  return before;
+}
+
 }  // namespace
 
 void CanSocket::fail(const std::string& what) const {
@@ -66,7 +85,7 @@ CanSocket::CanSocket(const std::string& interface, std::span<const std::uint16_t
     fail("the interface is down: bring it up with 'ip link set up " + interface + "'");
   }
   const std::vector<can_filter> filters = filters_for(identifiers);
-  const can_err_mask_t errors = CAN_ERR_BUSOFF;
+  const can_err_mask_t errors = CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CRTL;
   if (setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
                  static_cast<socklen_t>(filters.size() * sizeof(can_filter))) != 0 ||
       setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors) != 0) {
@@ -107,9 +126,10 @@ bool CanSocket::send(const can::Frame& frame) {
 
 std::optional<can::Frame> CanSocket::accept(const can_frame& wire) {
   if ((wire.can_id & CAN_ERR_FLAG) != 0) {
-    bus_off_ = bus_off_ || (wire.can_id & CAN_ERR_BUSOFF) != 0;
+    health_ = health_after(wire, health_);
     return std::nullopt;
   }
+  health_ = health_ == can::BusHealth::bus_off ? can::BusHealth::active : health_;
   can::Frame frame{static_cast<std::uint16_t>(wire.can_id & CAN_SFF_MASK), wire.len, {}};
   std::copy_n(wire.data, std::min<std::size_t>(wire.len, frame.data.size()), frame.data.begin());
   return frame;
@@ -130,12 +150,6 @@ bool CanSocket::wait(std::chrono::microseconds timeout) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
   const timespec limit{seconds.count(), std::chrono::nanoseconds(timeout - seconds).count()};
   return ppoll(&waiting, 1, &limit, nullptr) > 0;
-}
-
-bool CanSocket::take_bus_off() {
-  const bool was = bus_off_;
-  bus_off_ = false;
-  return was;
 }
 
 }  // namespace striker::host

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 
+#include "firmware/can/bus_health.hpp"
 #include "firmware/can/frame.hpp"
 
 namespace striker::host {
@@ -37,8 +38,8 @@ class CanSocket {
   // True when something can be received; false at the timeout or at a signal.
   bool wait(std::chrono::microseconds timeout);
 
-  // True if an error frame has reported bus-off since the last call.
-  bool take_bus_off();
+  // As the error frames that came tell it: off the bus until it is restarted or a frame is received.
+  [[nodiscard]] can::BusHealth health() const { return health_; }
 
   // For other calls on this socket: its file descriptor, and what came as a frame, or nothing for an error
   // frame, which is taken note of.
@@ -50,7 +51,7 @@ class CanSocket {
 
   std::string interface_;
   int socket_ = -1;
-  bool bus_off_ = false;
+  can::BusHealth health_ = can::BusHealth::active;
 };
 
 }  // namespace striker::host

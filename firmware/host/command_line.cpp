@@ -5,9 +5,14 @@
 #include <cstdio>
 #include <exception>
 
+#include "firmware/host/version.hpp"
+
 namespace striker::host {
 
-int run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& body) {
+int run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& body,
+        const std::string& built_in) {
+  app.set_version_flag("--version", fmt::format("{} {} ({}, {}){}{}", app.get_name(), version(), git_hash(),
+                                                build_type(), built_in.empty() ? "" : ", ", built_in));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 namespace striker::host {
 
@@ -11,7 +12,9 @@ inline constexpr int exit_bad_input = 2;
 inline constexpr int exit_interrupted = 130;
 
 // Parses, runs `body` and returns the exit code. A wrong option and an exception end in one line on stderr
-// and code 2.
-int run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& body);
+// and code 2. Adds --version: program, version, commit, build type, and `built_in`, which a program names that
+// has more to tell of itself, such as its policy.
+int run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& body,
+        const std::string& built_in = "");
 
 }  // namespace striker::host

@@ -8,16 +8,16 @@ namespace striker::host {
 
 inline constexpr std::int64_t tick_period_ns = 1'000'000;  // the controller's tick
 
-class LoopClock {
+class AbsoluteClock {
  public:
-  virtual ~LoopClock() = default;
+  virtual ~AbsoluteClock() = default;
   virtual std::int64_t now_ns() = 0;
   // Returns at once if the time has passed.
   virtual void sleep_until_ns(std::int64_t time_ns) = 0;
 };
 
 // CLOCK_MONOTONIC; sleeps with clock_nanosleep(TIMER_ABSTIME).
-class MonotonicClock final : public LoopClock {
+class MonotonicClock final : public AbsoluteClock {
  public:
   std::int64_t now_ns() override;
   void sleep_until_ns(std::int64_t time_ns) override;
@@ -27,7 +27,7 @@ class MonotonicClock final : public LoopClock {
 // their grid.
 class PeriodicClock {
  public:
-  explicit PeriodicClock(LoopClock& clock, std::int64_t period_ns = tick_period_ns)
+  explicit PeriodicClock(AbsoluteClock& clock, std::int64_t period_ns = tick_period_ns)
       : clock_(&clock), period_ns_(period_ns), next_ns_(clock.now_ns()) {}
 
   struct Wake {
@@ -48,7 +48,7 @@ class PeriodicClock {
   }
 
  private:
-  LoopClock* clock_;
+  AbsoluteClock* clock_;
   std::int64_t period_ns_;
   std::int64_t next_ns_;
   std::uint32_t tick_ = 0;

@@ -1,15 +1,21 @@
 // What an exported header holds: an integer Q network with everything the controller needs to trust it.
 //
+//   #include "firmware/policy/exported/kick.hpp"      // defines striker::policy::kick
+//   const auto q = policy::infer<policy::kick>(raw);  // network.hpp
+//
+// The format has no number of its own: a header of another format, like one that was altered, does not
+// compile. When the format changes, every committed header is exported again in the same commit.
+//
 // The network is Inputs -> Hidden1 -> Hidden2 -> Actions, fully connected, ReLU between. All arithmetic is
 // integer; ">>" is the arithmetic shift (floor):
 //
-//   input i   a = clamp((raw_i * multiplier_i + 2^(shift_i - 1)) >> shift_i, -32767, 32767)     (64-bit
-//   product) hidden j  s = bias_j + sum_i weight_ji * a_i (32-bit sum)
+//   input i   a = clamp((raw_i * multiplier_i + 2^(shift_i - 1)) >> shift_i, -32767, 32767)   (64-bit product)
+//   hidden j  s = bias_j + sum_i weight_ji * a_i                                              (32-bit sum)
 //             a = clamp((s + 2^(shift - 1)) >> shift, 0, 32767)
-//   action k  q = bias_k + sum_i weight_ki * a_i                                                 (32-bit sum)
+//   action k  q = bias_k + sum_i weight_ki * a_i                                              (32-bit sum)
 //   choice    the k of the greatest q; of equals, the lowest k
 //
-// `policy_proof.hpp` proves at compile time, from the weights, that no sum can leave 32 bits.
+// `proof.hpp` proves at compile time, from the weights, that no sum can leave 32 bits.
 #pragma once
 
 #include <array>
@@ -17,19 +23,9 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace striker::policy {
+#include "firmware/policy/state_elements.hpp"
 
-// State elements a policy can take, in the robot's frame (RCS, the paper's section III), and the unit of the
-// controller's integers.
-enum class StateElement : std::uint8_t {
-  ball_x = 0,          // um
-  ball_y = 1,          // um
-  robot_speed = 2,     // mm/s, signed along the heading
-  ball_vx = 3,         // mm/s, a direction: rotated, not translated
-  ball_vy = 4,         // mm/s
-  ball_angle = 5,      // of the ball's movement: binary angle, 2^16 is the full circle, in [-32768, 32767]
-  decisions_left = 6,  // of the 40 that a kick has, counted down from the first one after arming, to 0
-};
+namespace striker::policy {
 
 // One input of the network: an element as it was so many decisions ago. Before the first decision after
 // arming everything was as at the first.
@@ -37,12 +33,6 @@ struct StateInput {
   StateElement element;
   std::uint8_t decisions_ago;  // 0 to greatest_look_back
 };
-
-// In a mirror along the heading.
-[[nodiscard]] constexpr bool changes_sign(StateElement element) {
-  return element == StateElement::ball_y || element == StateElement::ball_vy ||
-         element == StateElement::ball_angle;
-}
 
 inline constexpr std::uint8_t greatest_look_back = 4;
 inline constexpr std::size_t greatest_inputs = 32;
@@ -85,7 +75,7 @@ struct Policy {
   static constexpr std::size_t actions = Actions;
   static constexpr std::size_t goldens = Goldens;
 
-  std::uint32_t identity;            // of everything below: policy_proof.hpp recomputes it
+  std::uint32_t identity;            // of everything below: proof.hpp recomputes it
   std::uint32_t configuration_hash;  // FNV-1a (32 bits) of the training configuration's text
   std::int32_t decision_period_ms;   // the period it was trained at
   std::array<StateInput, Inputs> state;

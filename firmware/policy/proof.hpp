@@ -97,8 +97,8 @@ template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::siz
 constexpr bool inputs_are_known(const Policy<I, H1, H2, A, G, W>& policy) {
   bool known = I <= greatest_inputs;
   for (const StateInput& input : policy.state) {
-    known =
-        known && input.element <= StateElement::decisions_left && input.decisions_ago <= greatest_look_back;
+    known = known && static_cast<std::size_t>(input.element) < state_elements.size() &&
+            input.decisions_ago <= greatest_look_back;
   }
   return known;
 }

@@ -1,18 +1,21 @@
-# Toolchain file for bare-metal Arm, after -DSTRIKER_CPU=<name as in -mcpu>. The presets call it.
+# Toolchain file for the boards: after -DSTRIKER_BOARD=, which ports/boards/read_board.cmake explains. The presets call it.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
-set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES STRIKER_CPU)
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES STRIKER_BOARD)
+
+include(${CMAKE_CURRENT_LIST_DIR}/boards/read_board.cmake)
+striker_read_board("${STRIKER_BOARD}")
 
 # The vector unit's registers belong to the floating-point ABI. No other image touches them: no state to save.
-if(STRIKER_CPU STREQUAL "cortex-m55")
+if(BOARD_CPU STREQUAL "cortex-m55")
   set(abi hard)
 else()
   set(abi soft)
 endif()
 set(CMAKE_CXX_FLAGS_INIT
-    "-mcpu=${STRIKER_CPU} -mthumb -mfloat-abi=${abi} -ffunction-sections -fdata-sections -fno-threadsafe-statics")
+    "-mcpu=${BOARD_CPU} -mthumb -mfloat-abi=${abi} -ffunction-sections -fdata-sections -fno-threadsafe-statics")
 
 # -O3 unrolls what is not the kernel: more flash, no faster kernel.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "")

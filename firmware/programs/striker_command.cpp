@@ -57,28 +57,29 @@ std::string describe(const can::Status& status) {
       "state {}, fault {}, vision {}, wheels {}, ignored frames: {} wrong length, {} wrong CRC, {} wrong "
       "counter, "
       "{} out of range",
-      can::name_of(can::state_names, status.state), can::name_of(can::fault_names, status.fault),
-      status.vision_ready != 0 ? "ready" : "not ready", status.wheels_ready != 0 ? "ready" : "not ready",
-      status.wrong_length, status.wrong_crc, status.wrong_counter, status.out_of_range);
+      core::name_of(static_cast<core::State>(status.state)),
+      core::name_of(static_cast<core::Fault>(status.fault)), status.vision_ready != 0 ? "ready" : "not ready",
+      status.wheels_ready != 0 ? "ready" : "not ready", status.wrong_length, status.wrong_crc,
+      status.wrong_counter, status.out_of_range);
 }
 
 bool has_effect(const std::string& command, const can::Status& status) {
-  const auto state = static_cast<can::State>(status.state);
+  const auto state = static_cast<core::State>(status.state);
   if (command == "arm") {
-    return state == can::State::active;
+    return state == core::State::active;
   }
   if (command == "estop") {
-    return state == can::State::fault;
+    return state == core::State::fault;
   }
   if (command == "clear") {
-    return state != can::State::fault;
+    return state != core::State::fault;
   }
-  return command == "status" || state != can::State::active;
+  return command == "status" || state != core::State::active;
 }
 
 void send_command(host::CanSocket& socket, const std::string& command) {
   if (command == "estop") {
-    send_twice(socket, can::EmergencyStop{.source = static_cast<std::int32_t>(can::StopSource::operator_)});
+    send_twice(socket, can::EmergencyStop{});
   } else if (command != "status") {
     const can::Mode mode = command == "arm"      ? can::Mode::arm
                            : command == "disarm" ? can::Mode::disarm

@@ -10,13 +10,16 @@
 #include <string>
 #include <thread>
 
+#include "firmware/can/controller_receives.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "firmware/policy/built_in.hpp"
 #include "firmware/ports/linux/bench_peer.hpp"
-#include "firmware/ports/linux/executor.hpp"
-#include "firmware/ports/linux/outbox.hpp"
+#include "firmware/ports/linux/fault_announcer.hpp"
 #include "firmware/ports/linux/real_time.hpp"
 #include "firmware/ports/linux/real_time_socket.hpp"
+#include "firmware/ports/linux/run_lockstep.hpp"
+#include "firmware/ports/linux/run_real_time.hpp"
 
 namespace {
 
@@ -28,7 +31,7 @@ struct Options {
   bool in_process = false;
   std::string clock = "sync";
   unsigned sync_timeout_ms = 2000;
-  std::string policy = "fifo";
+  std::string scheduler = "fifo";
   int priority = 80;
   std::int64_t runtime_us = 300;
   int cpu = -1;
@@ -52,8 +55,8 @@ void define_bus(CLI::App& app, Options& options) {
 }
 
 void define_real_time(CLI::App& app, Options& options) {
-  app.add_option("--policy", options.policy,
-                 "scheduling, where permitted; deadline with --cpu needs a cpuset of its own")
+  app.add_option("--scheduler", options.scheduler,
+                 "the thread's, where permitted; deadline with --cpu needs a cpuset of its own")
       ->check(CLI::IsMember({"fifo", "deadline", "other"}))
       ->capture_default_str();
   app.add_option("--priority", options.priority, "fifo: the priority")
@@ -81,9 +84,9 @@ void define_real_time(CLI::App& app, Options& options) {
 }
 
 RealTimeSettings settings_of(const Options& options) {
-  return {.policy = options.policy == "fifo"       ? Policy::fifo
-                    : options.policy == "deadline" ? Policy::deadline
-                                                   : Policy::other,
+  return {.scheduler = options.scheduler == "fifo"       ? Scheduler::fifo
+                       : options.scheduler == "deadline" ? Scheduler::deadline
+                                                         : Scheduler::other,
           .priority = options.priority,
           .runtime_ns = options.runtime_us * 1000,
           .period_ns = options.period_us * 1000,
@@ -147,7 +150,7 @@ void run_on_sync(const Options& options) {
   if (options.in_process) {
     throw std::runtime_error("--in-process has no SYNC: use it with --clock realtime");
   }
-  host::CanSocket socket(options.can, controller_receives);
+  host::CanSocket socket(options.can, can::controller_receives);
   print_granted(options, ask_for_real_time(settings_of(options)));
   const LockstepReport report = run_lockstep(socket, std::chrono::milliseconds(options.sync_timeout_ms));
   fmt::print("striker-firmware: stopped after {} ticks; {} frames dropped\n", report.ticks,
@@ -163,9 +166,9 @@ void run_on_own_clock(Options options) {
   if (options.in_process) {
     bench.emplace(in_process, settings);
   } else {
-    socket.emplace(options.can, controller_receives);
+    socket.emplace(options.can, can::controller_receives);
   }
-  std::atomic<can::Fault> fault = can::Fault::none;
+  std::atomic<core::Fault> fault = core::Fault::none;
   FaultAnnouncer announcer;
   std::optional<Helper> announcing;
   announcing.emplace([&] {
@@ -177,13 +180,16 @@ void run_on_own_clock(Options options) {
   granted.lines.push_back(fmt::format("a tick every {} us, at most {} frames received in each",
                                       options.period_us, options.loop.frames_per_tick));
   granted.lines.push_back(fmt::format("late by whole periods: skipped; fault beyond {} missed of {}",
-                                      options.loop.overrun_limit, 1000));
+                                      options.loop.overrun_limit, loop::OverrunLimit::window_ticks));
   print_granted(options, granted);
 
   host::MonotonicClock clock;
   LoopTiming timing;
-  FrameBus& bus = socket ? static_cast<FrameBus&>(*socket) : in_process;
-  run_real_time(bus, clock, options.loop, timing, fault);
+  if (socket) {
+    run_real_time(*socket, clock, options.loop, timing, fault);
+  } else {
+    run_real_time(in_process, clock, options.loop, timing, fault);
+  }
   announcing.reset();
   announcer.announce(fault);
   fmt::print("striker-firmware: {}\n", summary(timing));
@@ -200,9 +206,16 @@ int main(int argc, char** argv) {
   Options options;
   define_bus(app, options);
   define_real_time(app, options);
-  return host::run(app, argc, argv, [&] {
-    host::catch_stop_signals();
-    options.clock == "sync" ? run_on_sync(options) : run_on_own_clock(options);
-    return 0;
-  });
+  return host::run(
+      app, argc, argv,
+      [&] {
+        host::catch_stop_signals();
+        if (options.clock == "sync") {
+          run_on_sync(options);
+        } else {
+          run_on_own_clock(options);
+        }
+        return 0;
+      },
+      fmt::format("policy {:08x}", policy::built_in.identity));
 }

@@ -1,3 +1,5 @@
+#include "sil/budget/dbc_reader.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +11,6 @@
 #include <map>
 #include <regex>
 #include <stdexcept>
-
-#include "sil/budget/message_set.hpp"
 
 namespace striker::sil {
 
@@ -31,9 +31,9 @@ struct Dbc {
   std::map<std::string, double> defaults;
 };
 
-class Reader {
+class DbcReader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file) {
+  explicit DbcReader(const std::filesystem::path& file) : file_(file) {
     std::ifstream stream(file);
     if (!stream) {
       throw std::runtime_error(
@@ -108,49 +108,69 @@ std::int64_t first_but_zero_ns(std::initializer_list<double> times_ms) {
   return 0;
 }
 
+// What a DBC says of a message's traffic, in ms; 0: nothing.
+struct Traffic {
+  double period_ms = 0.0;
+  double distance_ms = 0.0;
+  double deadline_ms = 0.0;
+  double burst = 0.0;
+};
+
+// What keeps a message out of a budget, and the way out; or nothing.
+const char* problem_of(std::uint32_t id, const Described& message, const Traffic& traffic,
+                       double fallback_ms) {
+  if (id > 0x7FF) {
+    return "an extended identifier: the budget is for 11-bit identifiers; leave the message out";
+  }
+  if (message.bytes > 8) {
+    return "more than 8 bytes: the budget is for classic CAN; leave the message out";
+  }
+  if (first_but_zero_ns({traffic.period_ms, traffic.distance_ms, fallback_ms}) == 0) {
+    return "neither GenMsgCycleTime nor GenMsgDelayTime: give one, or --default-distance-ms";
+  }
+  for (const double time_ms : {traffic.period_ms, traffic.distance_ms, traffic.deadline_ms}) {
+    if (!(time_ms == 0.0 || (time_ms >= 0.001 && time_ms <= 1e7))) {
+      return "times go from 0.001 to 10,000,000 ms";
+    }
+  }
+  if (!(traffic.burst >= 0.0 && traffic.burst <= 1e3) ||
+      (traffic.period_ms > 0.0 && traffic.distance_ms > traffic.period_ms)) {
+    return "Burst goes from 1 to 1000, and GenMsgDelayTime up to GenMsgCycleTime";
+  }
+  return nullptr;
+}
+
+BusMessage bus_message(std::uint32_t id, const Described& message, const Traffic& traffic,
+                       double fallback_ms) {
+  const auto [period_ms, distance_ms, deadline_ms, burst] = traffic;
+  const std::int64_t distance_ns = first_but_zero_ns({distance_ms, period_ms, fallback_ms});
+  const std::int64_t period_ns =
+      burst > 1.0 ? first_but_zero_ns({period_ms, distance_ms, fallback_ms}) : distance_ns;
+  return {.name = message.name,
+          .sender = message.sender,
+          .id = static_cast<std::uint16_t>(id),
+          .bytes = message.bytes,
+          .period_ns = period_ns,
+          .distance_ns = distance_ns,
+          .burst = std::max<std::int64_t>(1, std::llround(burst)),
+          .deadline_ns = first_but_zero_ns({deadline_ms, period_ms, distance_ms, fallback_ms})};
+}
+
 }  // namespace
 
 std::vector<BusMessage> read_dbc(const std::filesystem::path& file, std::int64_t default_distance_ms) {
-  const Reader reader(file);
-  const auto refuse = [&](const Described& message, const char* what) {
-    throw std::runtime_error(fmt::format("{}: message {}: {}", file.string(), message.name, what));
-  };
+  const DbcReader reader(file);
+  const auto fallback_ms = static_cast<double>(default_distance_ms);
   std::vector<BusMessage> messages;
   for (const auto& [id, message] : reader.dbc().messages) {
-    if (id > 0x7FF) {
-      refuse(message, "an extended identifier: the budget is for 11-bit identifiers; leave the message out");
+    const Traffic traffic{.period_ms = attribute(reader.dbc(), message, "GenMsgCycleTime"),
+                          .distance_ms = attribute(reader.dbc(), message, "GenMsgDelayTime"),
+                          .deadline_ms = attribute(reader.dbc(), message, "Deadline"),
+                          .burst = attribute(reader.dbc(), message, "Burst")};
+    if (const char* problem = problem_of(id, message, traffic, fallback_ms)) {
+      throw std::runtime_error(fmt::format("{}: message {}: {}", file.string(), message.name, problem));
     }
-    if (message.bytes > 8) {
-      refuse(message, "more than 8 bytes: the budget is for classic CAN; leave the message out");
-    }
-    const double period_ms = attribute(reader.dbc(), message, "GenMsgCycleTime");
-    const double distance_ms = attribute(reader.dbc(), message, "GenMsgDelayTime");
-    const double deadline_ms = attribute(reader.dbc(), message, "Deadline");
-    const double burst = attribute(reader.dbc(), message, "Burst");
-    const auto fallback_ms = static_cast<double>(default_distance_ms);
-    if (first_but_zero_ns({period_ms, distance_ms, fallback_ms}) == 0) {
-      refuse(message, "neither GenMsgCycleTime nor GenMsgDelayTime: give one, or --default-distance-ms");
-    }
-    for (const double time_ms : {period_ms, distance_ms, deadline_ms}) {
-      if (!(time_ms == 0.0 || (time_ms >= 0.001 && time_ms <= 1e7))) {
-        refuse(message, "times go from 0.001 to 10,000,000 ms");
-      }
-    }
-    if (!(burst >= 0.0 && burst <= 1e3) || (period_ms > 0.0 && distance_ms > period_ms)) {
-      refuse(message, "Burst goes from 1 to 1000, and GenMsgDelayTime up to GenMsgCycleTime");
-    }
-    const std::int64_t distance_ns = first_but_zero_ns({distance_ms, period_ms, fallback_ms});
-    const std::int64_t period_ns =
-        burst > 1.0 ? first_but_zero_ns({period_ms, distance_ms, fallback_ms}) : distance_ns;
-    messages.push_back(
-        {.name = message.name,
-         .sender = message.sender,
-         .id = static_cast<std::uint16_t>(id),
-         .bytes = message.bytes,
-         .period_ns = period_ns,
-         .distance_ns = distance_ns,
-         .burst = std::max<std::int64_t>(1, std::llround(burst)),
-         .deadline_ns = first_but_zero_ns({deadline_ms, period_ms, distance_ms, fallback_ms})});
+    messages.push_back(bus_message(id, message, traffic, fallback_ms));
   }
   return messages;
 }

@@ -11,7 +11,7 @@ namespace {
 
 template <class Message>
 std::optional<std::size_t> index_of(const std::vector<BusMessage>& messages) {
-  const BusMessage* found = find(messages, std::string(can::layout<Message>.info.name));
+  const BusMessage* found = find_message(messages, std::string(can::layout<Message>.info.name));
   return found == nullptr ? std::nullopt : std::optional(static_cast<std::size_t>(found - messages.data()));
 }
 
@@ -45,8 +45,8 @@ std::optional<std::int64_t> sync_lateness_ns(std::vector<BusMessage> messages,
   }
   // Of the controller's frames FaultReport alone goes before Sync; it answers an earlier Sync, up to a tick
   // late.
-  set_jitter(messages, {.controller_ns = tick_period_ns, .others_ns = others_ns});
-  return analyse(messages, assumptions)[*sync].response_ns;
+  set_jitter(messages, {.controller_ns = host::tick_period_ns, .others_ns = others_ns});
+  return response_times(messages, assumptions)[*sync].response_ns;
 }
 
 }  // namespace striker::sil

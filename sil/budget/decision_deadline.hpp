@@ -13,11 +13,10 @@
 #include <optional>
 #include <vector>
 
+#include "firmware/host/periodic_clock.hpp"
 #include "sil/budget/response_time.hpp"
 
 namespace striker::sil {
-
-inline constexpr std::int64_t tick_period_ns = 1'000'000;
 
 struct ControllerTime {
   std::int64_t lateness_ns = 0;  // of a tick; in lockstep, where SYNC is the tick, the response of SYNC
@@ -26,7 +25,7 @@ struct ControllerTime {
 
 struct DecisionDeadline {
   std::int64_t picture_ns = 0;
-  std::int64_t phase_ns = tick_period_ns;
+  std::int64_t phase_ns = host::tick_period_ns;
   ControllerTime controller;
   std::int64_t command_ns = 0;
 

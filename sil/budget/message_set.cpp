@@ -32,14 +32,14 @@ std::vector<BusMessage> table_messages() {
   return messages;
 }
 
-const BusMessage* find(const std::vector<BusMessage>& messages, const std::string& name) {
+const BusMessage* find_message(const std::vector<BusMessage>& messages, const std::string& name) {
   const auto found = std::find_if(messages.begin(), messages.end(),
                                   [&](const BusMessage& message) { return message.name == name; });
   return found == messages.end() ? nullptr : &*found;
 }
 
 void set_jitter(std::vector<BusMessage>& messages, const QueueingJitter& jitter) {
-  const BusMessage* command = find(messages, std::string(can::layout<can::WheelCommand>.info.name));
+  const BusMessage* command = find_message(messages, std::string(can::layout<can::WheelCommand>.info.name));
   const std::string controller = command != nullptr ? command->sender : "";
   for (BusMessage& message : messages) {
     const bool is_controllers = command != nullptr && message.sender == controller;

@@ -1,13 +1,7 @@
-// The messages that a bus budget is made for: those of the message table, or of a DBC file.
-//
-// From a DBC: messages with 11-bit identifiers of up to 8 bytes, and the attributes GenMsgCycleTime (period),
-// GenMsgDelayTime (shortest distance) and Deadline, all in ms, and Burst, as `striker-dbc` writes them.
-// Without a period it is the distance; with a distance but no Burst the period is the distance, because
-// nothing else bounds frames on changes; without Deadline it is the period.
+// The messages that a bus budget is made for, from the message table; sil/budget/dbc_reader.hpp reads others.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,14 +12,9 @@ namespace striker::sil {
 // Jitter 0.
 [[nodiscard]] std::vector<BusMessage> table_messages();
 
-// Jitter 0. `default_distance_ms` (period and distance) is for messages with neither a period nor a distance;
-// 0: they are an error. Throws std::runtime_error with one line that names the file, what is wrong in it, and
-// the way out.
-[[nodiscard]] std::vector<BusMessage> read_dbc(const std::filesystem::path& file,
-                                               std::int64_t default_distance_ms);
-
 // The message with this name, or nullptr.
-[[nodiscard]] const BusMessage* find(const std::vector<BusMessage>& messages, const std::string& name);
+[[nodiscard]] const BusMessage* find_message(const std::vector<BusMessage>& messages,
+                                             const std::string& name);
 
 // How late senders queue their frames, at most.
 struct QueueingJitter {

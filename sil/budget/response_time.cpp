@@ -11,7 +11,7 @@ namespace {
 // Busy periods beyond this are called unbounded: the bus is all but full.
 constexpr std::int64_t longest_busy_ns = 600'000'000'000;
 
-constexpr std::int64_t round_up(std::int64_t dividend, std::int64_t divisor) {
+constexpr std::int64_t ceil_div(std::int64_t dividend, std::int64_t divisor) {
   return (dividend + divisor - 1) / divisor;
 }
 
@@ -21,8 +21,8 @@ std::int64_t longest_frame_ns(const BusMessage& message, std::int64_t bit_ns) {
 
 std::int64_t frames_within(std::int64_t window_ns, const BusMessage& message) {
   const std::int64_t events_ns = window_ns + message.jitter_ns;
-  return std::min(round_up(events_ns, message.distance_ns),
-                  round_up(events_ns, message.period_ns) + message.burst - 1);
+  return std::min(ceil_div(events_ns, message.distance_ns),
+                  ceil_div(events_ns, message.period_ns) + message.burst - 1);
 }
 
 // Of instance q, after the first one's.
@@ -147,8 +147,8 @@ class Level {
 
 }  // namespace
 
-std::vector<MessageResponse> analyse(const std::vector<BusMessage>& messages,
-                                     const BusAssumptions& assumptions) {
+std::vector<MessageResponse> response_times(const std::vector<BusMessage>& messages,
+                                            const BusAssumptions& assumptions) {
   std::vector<MessageResponse> responses;
   responses.reserve(messages.size());
   for (const BusMessage& message : messages) {

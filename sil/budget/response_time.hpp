@@ -54,8 +54,8 @@ struct MessageResponse {
 };
 
 // In the order of `messages`.
-[[nodiscard]] std::vector<MessageResponse> analyse(const std::vector<BusMessage>& messages,
-                                                   const BusAssumptions& assumptions);
+[[nodiscard]] std::vector<MessageResponse> response_times(const std::vector<BusMessage>& messages,
+                                                          const BusAssumptions& assumptions);
 
 [[nodiscard]] bool meets_deadline(const BusMessage& message, const MessageResponse& response);
 

@@ -2,13 +2,15 @@
 
 namespace striker::sil {
 
-void InProcessLink::exchange(std::uint32_t, std::span<const can::Frame> sent,
-                             std::vector<can::Frame>& answer) {
-  for (const can::Frame& frame : sent) {
-    if (clock_.take(frame, outputs_)) {
-      answer.insert(answer.end(), outputs_.frames().begin(), outputs_.frames().end());
-    }
+void InProcessLink::send(std::uint32_t, std::span<const can::Frame> frames) {
+  outputs_.clear();
+  for (const can::Frame& frame : frames) {
+    clock_.take(frame, outputs_);
   }
+}
+
+void InProcessLink::collect(std::uint32_t, std::vector<can::Frame>& answer) {
+  answer.insert(answer.end(), outputs_.frames().begin(), outputs_.frames().end());
 }
 
 }  // namespace striker::sil

@@ -1,4 +1,5 @@
-// The controller in the simulator's own process, stepped by the same SYNC frames as over a bus.
+// The controller in the simulator's own process, stepped by the same SYNC frames as over a bus. It steps
+// within `send`; `collect` hands over what it said. A copy of a link is a controller of its own.
 #pragma once
 
 #include "firmware/core/sync_clock.hpp"
@@ -8,8 +9,8 @@ namespace striker::sil {
 
 class InProcessLink final : public ControllerLink {
  public:
-  void exchange(std::uint32_t tick, std::span<const can::Frame> sent,
-                std::vector<can::Frame>& answer) override;
+  void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
+  void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
   [[nodiscard]] const core::Controller& controller() const { return clock_.controller(); }
 

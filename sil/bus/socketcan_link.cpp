@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <stdexcept>
 
-#include "firmware/can/codec.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "sil/bus/controller_messages.hpp"
+#include "sil/bus/end_of_tick.hpp"
 
 namespace striker::sil {
 
@@ -21,12 +21,6 @@ constexpr milliseconds start_retry{200};
 constexpr milliseconds unanswered_tick{1};
 constexpr milliseconds silence{20};
 
-constexpr std::array<std::uint16_t, 7> controller_sends = {
-    can::layout<can::FaultReport>.info.id, can::layout<can::WheelCommand>.info.id,
-    can::layout<can::Status>.info.id,      can::layout<can::Decision>.info.id,
-    can::layout<can::Timing>.info.id,      can::layout<can::Heartbeat>.info.id,
-    can::layout<can::Version>.info.id};
-
 // A full queue in lockstep means a peer that does not read: the frame is lost as on a real bus.
 void send_all(host::CanSocket& socket, std::span<const can::Frame> frames) {
   for (const can::Frame& frame : frames) {
@@ -34,16 +28,32 @@ void send_all(host::CanSocket& socket, std::span<const can::Frame> frames) {
   }
 }
 
-bool answers(const can::Frame& frame, std::uint32_t tick) {
-  can::WheelCommand command;
-  return can::unpack(frame, command) == can::Verdict::accepted &&
-         static_cast<std::uint32_t>(command.tick_low) == (tick & 0xFU);
-}
-
 }  // namespace
 
 LockstepLink::LockstepLink(const std::string& interface, const SocketCanOptions& options)
-    : socket_(interface, controller_sends), options_(options) {}
+    : socket_(interface, controller_identifiers), options_(options) {}
+
+void LockstepLink::send(std::uint32_t tick, std::span<const can::Frame> frames) {
+  if (tick == 0) {
+    first_.assign(frames.begin(), frames.end());
+  }
+  send_all(socket_, frames);
+}
+
+void LockstepLink::collect(std::uint32_t tick, std::vector<can::Frame>& answer) {
+  if (tick == 0) {
+    return await_start(answer);
+  }
+  if (!answered_) {
+    return listen_for_return(tick);
+  }
+  if (!await_answer(tick, options_.answer_timeout, answer) && !host::stop_requested()) {
+    answered_ = false;
+    fmt::print(stderr,
+               "striker-sil: no answer from the controller at tick {} within {} ms: running on unanswered\n",
+               tick, options_.answer_timeout.count());
+  }
+}
 
 bool LockstepLink::await_answer(std::uint32_t tick, microseconds timeout, std::vector<can::Frame>& answer) {
   const std::size_t begin = answer.size();
@@ -51,11 +61,12 @@ bool LockstepLink::await_answer(std::uint32_t tick, microseconds timeout, std::v
   while (true) {
     while (const auto frame = socket_.receive()) {
       answer.push_back(*frame);
-      if (can::is<can::WheelCommand>(*frame)) {
-        if (answers(*frame, tick)) {
-          return true;
-        }
-        answer.resize(begin);  // the end of a late answer to an earlier tick
+      const EndOfTick end = end_of_tick(*frame, tick);
+      if (end == EndOfTick::of_this_tick) {
+        return true;
+      }
+      if (end == EndOfTick::of_another_tick) {
+        answer.resize(begin);
       }
     }
     const auto rest = duration_cast<microseconds>(deadline - Clock::now());
@@ -67,18 +78,17 @@ bool LockstepLink::await_answer(std::uint32_t tick, microseconds timeout, std::v
   }
 }
 
-void LockstepLink::start(std::span<const can::Frame> sent, std::vector<can::Frame>& answer) {
+void LockstepLink::await_start(std::vector<can::Frame>& answer) {
   const auto deadline = Clock::now() + options_.start_timeout;
-  do {
-    send_all(socket_, sent);
-    if (await_answer(0, start_retry, answer) || host::stop_requested()) {
-      return;
+  while (!await_answer(0, start_retry, answer) && !host::stop_requested()) {
+    if (Clock::now() >= deadline) {
+      throw std::runtime_error(
+          fmt::format("no controller answered SYNC within {} s: start it with 'striker-firmware --can IFACE "
+                      "--clock sync' on the same interface, or use --bus inproc",
+                      duration_cast<std::chrono::seconds>(options_.start_timeout).count()));
     }
-  } while (Clock::now() < deadline);
-  throw std::runtime_error(
-      fmt::format("no controller answered SYNC within {} s: start it with 'striker-firmware "
-                  "--can IFACE --clock sync' on the same interface, or use --bus inproc",
-                  duration_cast<std::chrono::seconds>(options_.start_timeout).count()));
+    send_all(socket_, first_);
+  }
 }
 
 void LockstepLink::listen_for_return(std::uint32_t tick) {
@@ -93,30 +103,13 @@ void LockstepLink::listen_for_return(std::uint32_t tick) {
   fmt::print(stderr, "striker-sil: the controller answers again, from tick {}\n", tick + 1);
 }
 
-void LockstepLink::exchange(std::uint32_t tick, std::span<const can::Frame> sent,
-                            std::vector<can::Frame>& answer) {
-  if (tick == 0) {
-    return start(sent, answer);
-  }
-  send_all(socket_, sent);
-  if (!answered_) {
-    ++unanswered_;
-    return listen_for_return(tick);
-  }
-  if (!await_answer(tick, options_.answer_timeout, answer) && !host::stop_requested()) {
-    ++unanswered_;
-    answered_ = false;
-    fmt::print(stderr,
-               "striker-sil: no answer from the controller at tick {} within {} ms: running on unanswered\n",
-               tick, options_.answer_timeout.count());
-  }
+FreeRunningLink::FreeRunningLink(const std::string& interface) : socket_(interface, controller_identifiers) {}
+
+void FreeRunningLink::send(std::uint32_t, std::span<const can::Frame> frames) {
+  send_all(socket_, frames);
 }
 
-FreeRunningLink::FreeRunningLink(const std::string& interface) : socket_(interface, controller_sends) {}
-
-void FreeRunningLink::exchange(std::uint32_t, std::span<const can::Frame> sent,
-                               std::vector<can::Frame>& answer) {
-  send_all(socket_, sent);
+void FreeRunningLink::collect(std::uint32_t, std::vector<can::Frame>& answer) {
   while (const auto frame = socket_.receive()) {
     answer.push_back(*frame);
   }

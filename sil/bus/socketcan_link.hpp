@@ -22,28 +22,26 @@ struct SocketCanOptions {
 class LockstepLink final : public ControllerLink {
  public:
   LockstepLink(const std::string& interface, const SocketCanOptions& options);
+  void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
   // Throws std::runtime_error if tick 0 stays unanswered for the start timeout, or the interface goes away.
-  void exchange(std::uint32_t tick, std::span<const can::Frame> sent,
-                std::vector<can::Frame>& answer) override;
-
-  [[nodiscard]] std::uint64_t unanswered_ticks() const { return unanswered_; }
+  void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
  private:
   bool await_answer(std::uint32_t tick, std::chrono::microseconds timeout, std::vector<can::Frame>& answer);
-  void start(std::span<const can::Frame> sent, std::vector<can::Frame>& answer);
+  void await_start(std::vector<can::Frame>& answer);
   void listen_for_return(std::uint32_t tick);
 
   host::CanSocket socket_;
   SocketCanOptions options_;
+  std::vector<can::Frame> first_;  // of tick 0, to be sent again
   bool answered_ = true;
-  std::uint64_t unanswered_ = 0;
 };
 
 class FreeRunningLink final : public ControllerLink {
  public:
   explicit FreeRunningLink(const std::string& interface);
-  void exchange(std::uint32_t tick, std::span<const can::Frame> sent,
-                std::vector<can::Frame>& answer) override;
+  void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
+  void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
  private:
   host::CanSocket socket_;

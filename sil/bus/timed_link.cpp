@@ -3,21 +3,13 @@
 #include <algorithm>
 
 #include "firmware/can/codec.hpp"
+#include "firmware/host/periodic_clock.hpp"
+#include "sil/bus/controller_messages.hpp"
 #include "sil/bus/frame_bits.hpp"
 
 namespace striker::sil {
 
 namespace {
-
-constexpr std::int64_t tick_ns = 1'000'000;
-
-bool is_controllers(const can::Frame& frame) {
-  bool found = false;
-  can::for_each_layout([&](const auto& message) {
-    found = found || (message.info.id == frame.id && message.info.sender == can::Node::controller);
-  });
-  return found;
-}
 
 bool answers_a_picture(const can::Frame& frame) {
   can::Decision decision;
@@ -30,31 +22,50 @@ bool answers_a_picture(const can::Frame& frame) {
 TimedLink::TimedLink(ControllerLink& controller, const TimedBusOptions& options)
     : controller_(&controller), options_(options), bus_(options.bit_ns) {}
 
+void TimedLink::send(std::uint32_t tick, std::span<const can::Frame> frames) {
+  arrived_.swap(to_simulator_);
+  to_simulator_.clear();
+  seen_.clear();
+  const std::int64_t begin_ns = tick * host::tick_period_ns;
+  for (const can::Frame& frame : frames) {
+    const bool picture = can::is<can::VisionPose>(frame) || can::is<can::VisionBall>(frame);
+    const std::int64_t at_ns = begin_ns + (picture ? options_.vision_phase_ns : 0);
+    picture_ns_ = picture ? at_ns : picture_ns_;
+    queue(frame, at_ns);
+  }
+  now_ns_ = begin_ns + host::tick_period_ns;
+  run_until_a_step();
+}
+
+void TimedLink::collect(std::uint32_t, std::vector<can::Frame>& answer) {
+  while (step_) {
+    end_step();
+    run_until_a_step();
+  }
+  answer.insert(answer.end(), arrived_.begin(), arrived_.end());
+}
+
 void TimedLink::queue(const can::Frame& frame, std::int64_t at_ns) {
   report_.replaced += bus_.withdraw(frame.id) ? 1 : 0;
   bus_.queue({frame, frame_bits(frame), at_ns});
 }
 
-void TimedLink::step_controller(const can::Frame& sync, std::int64_t at_ns) {
-  can::Sync tick;
-  static_cast<void>(can::unpack(sync, tick));
-  to_controller_.push_back(sync);
-  reply_.clear();
-  controller_->exchange(static_cast<std::uint32_t>(tick.tick), to_controller_, reply_);
-  to_controller_.clear();
-  for (const can::Frame& frame : reply_) {
-    queue(frame, at_ns + options_.step_ns);
-  }
-  if (std::any_of(reply_.begin(), reply_.end(), answers_a_picture)) {
-    deciding_command_ = reply_.back();
+// Runs the bus until the controller is to step, or to the end of the tick.
+void TimedLink::run_until_a_step() {
+  while (!step_) {
+    const auto frame = bus_.next(now_ns_);
+    if (!frame) {
+      return;
+    }
+    receive(*frame);
   }
 }
 
 void TimedLink::receive(const SentFrame& sent) {
   const can::Frame& frame = sent.queued.frame;
-  seen_.push_back({sent.received_ns, frame});
+  seen_.push_back({frame, sent.received_ns});
   if (can::is<can::Sync>(frame)) {
-    step_controller(frame, sent.received_ns);
+    begin_step(frame, sent.received_ns);
   } else if (!is_controllers(frame)) {
     to_controller_.push_back(frame);
   } else {
@@ -68,22 +79,26 @@ void TimedLink::receive(const SentFrame& sent) {
   }
 }
 
-void TimedLink::exchange(std::uint32_t tick, std::span<const can::Frame> sent,
-                         std::vector<can::Frame>& answer) {
-  answer.insert(answer.end(), to_simulator_.begin(), to_simulator_.end());
-  to_simulator_.clear();
-  seen_.clear();
-  const std::int64_t begin_ns = tick * tick_ns;
-  for (const can::Frame& frame : sent) {
-    const bool picture = can::is<can::VisionPose>(frame) || can::is<can::VisionBall>(frame);
-    const std::int64_t at_ns = begin_ns + (picture ? options_.vision_phase_ns : 0);
-    picture_ns_ = picture ? at_ns : picture_ns_;
-    queue(frame, at_ns);
+void TimedLink::begin_step(const can::Frame& sync, std::int64_t at_ns) {
+  can::Sync message;
+  static_cast<void>(can::unpack(sync, message));
+  step_ = PendingStep{static_cast<std::uint32_t>(message.tick), at_ns};
+  to_controller_.push_back(sync);
+  controller_->send(step_->tick, to_controller_);
+  to_controller_.clear();
+}
+
+void TimedLink::end_step() {
+  reply_.clear();
+  controller_->collect(step_->tick, reply_);
+  for (const can::Frame& frame : reply_) {
+    queue(frame, step_->sync_ns + options_.step_ns);
   }
-  now_ns_ = begin_ns + tick_ns;
-  while (const auto frame = bus_.next(now_ns_)) {
-    receive(*frame);
+  if (std::any_of(reply_.begin(), reply_.end(), answers_a_picture)) {
+    const auto command = std::find_if(reply_.begin(), reply_.end(), can::is<can::WheelCommand>);
+    deciding_command_ = command != reply_.end() ? std::optional(*command) : std::nullopt;
   }
+  step_.reset();
 }
 
 TimedBusReport TimedLink::report() const {

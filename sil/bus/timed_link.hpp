@@ -23,11 +23,6 @@ struct TimedBusOptions {
   std::int64_t vision_phase_ns = 0;  // less than a tick
 };
 
-struct StampedFrame {
-  std::int64_t received_ns = 0;
-  can::Frame frame;
-};
-
 struct TimedBusReport {
   double busy_share = 0.0;  // of all time so far
   std::uint64_t replaced = 0;
@@ -40,26 +35,37 @@ class TimedLink final : public ControllerLink {
  public:
   TimedLink(ControllerLink& controller, const TimedBusOptions& options);
 
-  void exchange(std::uint32_t tick, std::span<const can::Frame> sent,
-                std::vector<can::Frame>& answer) override;
+  // Runs the bus until the controller has its SYNC, and does not wait for what it makes of it.
+  void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
+  // Runs the bus to the end of the tick. The answer is what was received in the tick before.
+  void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
-  // Everything that was received in the last tick, in the bus's order. Valid until the next exchange.
-  [[nodiscard]] std::span<const StampedFrame> seen() const { return seen_; }
+  [[nodiscard]] std::optional<std::span<const StampedFrame>> timed_traffic() const override { return seen_; }
 
   [[nodiscard]] TimedBusReport report() const;
 
  private:
+  // A step of the controller whose answer was not collected yet.
+  struct PendingStep {
+    std::uint32_t tick;
+    std::int64_t sync_ns;  // its SYNC was received
+  };
+
   void queue(const can::Frame& frame, std::int64_t at_ns);
+  void run_until_a_step();
   void receive(const SentFrame& sent);
-  void step_controller(const can::Frame& sync, std::int64_t at_ns);
+  void begin_step(const can::Frame& sync, std::int64_t at_ns);
+  void end_step();
 
   ControllerLink* controller_;
   TimedBusOptions options_;
   ArbitratedBus bus_;
   std::vector<StampedFrame> seen_;
   std::vector<can::Frame> to_controller_;  // since the last SYNC
-  std::vector<can::Frame> to_simulator_;   // since the last tick
+  std::vector<can::Frame> to_simulator_;   // in this tick
+  std::vector<can::Frame> arrived_;        // in the tick before
   std::vector<can::Frame> reply_;
+  std::optional<PendingStep> step_;
   std::int64_t now_ns_ = 0;
   std::int64_t picture_ns_ = 0;
   std::optional<can::Frame> deciding_command_;  // on its way

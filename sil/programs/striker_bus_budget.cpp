@@ -9,6 +9,7 @@
 
 #include "firmware/host/command_line.hpp"
 #include "sil/budget/budget_report.hpp"
+#include "sil/budget/dbc_reader.hpp"
 #include "sil/budget/message_set.hpp"
 #include "sil/bus/bit_rate.hpp"
 
@@ -80,7 +81,7 @@ BusBudget make_budget(const Options& options) {
   }
   set_jitter(budget.messages, {.controller_ns = controller.lateness_ns + controller.step_ns,
                                .others_ns = to_ns(options.jitter_us)});
-  budget.responses = analyse(budget.messages, assumptions);
+  budget.responses = response_times(budget.messages, assumptions);
   budget.decision = decision_deadline(budget.messages, budget.responses, controller);
   return budget;
 }
@@ -89,8 +90,7 @@ BusBudget make_budget(const Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Worst-case response times on the CAN bus (Davis, Burns, Bril, Lukkien 2007), and from picture to "
-      "torque "
+      "Worst-case response times on the CAN bus (Davis, Burns, Bril, Lukkien 2007), and from picture to torque "
       "command. Exit status: 0 every deadline is met, 1 one is missed, 2 wrong use.",
       "striker-bus-budget");
   Options options;

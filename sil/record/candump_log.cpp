@@ -7,17 +7,27 @@
 
 namespace striker::sil {
 
-void write_candump(host::AtomicFile& log, std::int64_t stamp_us, const can::Frame& frame) {
+void CandumpLog::end_tick(const Snapshot& snapshot) {
+  for (std::size_t robot = 0; robot < snapshot.robots.size(); ++robot) {
+    for (const StampedFrame& stamped : snapshot.robots[robot].frames) {
+      write(robot, stamped);
+    }
+  }
+}
+
+void CandumpLog::write(std::size_t robot, const StampedFrame& stamped) {
   constexpr std::string_view digits = "0123456789ABCDEF";
+  const can::Frame& frame = stamped.frame;
+  const std::int64_t stamp_us = stamped.received_ns / 1000;
   fmt::basic_memory_buffer<char, 64> line;
-  fmt::format_to(fmt::appender(line), FMT_COMPILE("({:010}.{:06}) vcan0 {:03X}#"), stamp_us / 1'000'000,
-                 stamp_us % 1'000'000, frame.id);
+  fmt::format_to(fmt::appender(line), FMT_COMPILE("({:010}.{:06}) vcan{} {:03X}#"), stamp_us / 1'000'000,
+                 stamp_us % 1'000'000, robot, frame.id);
   for (std::size_t byte = 0; byte < frame.length; ++byte) {
     line.push_back(digits[frame.data[byte] >> 4U]);
     line.push_back(digits[frame.data[byte] & 0xFU]);
   }
   line.push_back('\n');
-  log.write({line.data(), line.size()});
+  file_.write({line.data(), line.size()});
 }
 
 }  // namespace striker::sil

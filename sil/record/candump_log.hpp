@@ -1,15 +1,29 @@
 // The bus as a candump log (the format of candump -L and of canplayer, python-can and SavvyCAN):
 //   (0000000012.345000) vcan0 050#1122334455667788
-// Stamps are logical time, the interface column is always vcan0: same seed, same bytes.
+// The stamp is logical time in seconds, the interface column vcan and the robot's number: same seed, same
+// bytes.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <filesystem>
 
-#include "firmware/can/frame.hpp"
 #include "firmware/host/atomic_file.hpp"
+#include "sil/record/observer.hpp"
 
 namespace striker::sil {
 
-void write_candump(host::AtomicFile& log, std::int64_t stamp_us, const can::Frame& frame);
+// Written to a temporary file, renamed at the end of the run. Throws std::runtime_error that names the file.
+class CandumpLog final : public Observer {
+ public:
+  explicit CandumpLog(const std::filesystem::path& file) : file_(file) {}
+
+  void end_tick(const Snapshot& snapshot) override;
+  void end_run() override { file_.finish(); }
+
+ private:
+  void write(std::size_t robot, const StampedFrame& stamped);
+
+  host::AtomicFile file_;
+};
 
 }  // namespace striker::sil

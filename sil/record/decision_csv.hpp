@@ -8,20 +8,23 @@
 
 #include "firmware/core/controller.hpp"
 #include "firmware/host/atomic_file.hpp"
+#include "sil/record/observer.hpp"
 
 namespace striker::sil {
 
-// Written to a temporary file, renamed by `finish`. Throws std::runtime_error that names the file.
-class DecisionCsv {
+// Written to a temporary file, renamed at the end of the run. Throws std::runtime_error that names the file.
+class DecisionCsv final : public Observer {
  public:
-  explicit DecisionCsv(const std::filesystem::path& file);
+  // `controller` outlives it.
+  DecisionCsv(const std::filesystem::path& file, const core::Controller& controller);
 
-  // Once a tick; writes a row where the controller has decided since the last call.
-  void observe(const core::Controller& controller, std::uint64_t episode, bool before_contact);
-  void finish();
+  // A row where the controller has decided since the last tick.
+  void end_tick(const Snapshot& snapshot) override;
+  void end_run() override { file_.finish(); }
 
  private:
   host::AtomicFile file_;
+  const core::Controller* controller_;
   std::uint32_t last_number_ = 0;
 };
 

@@ -13,19 +13,19 @@ namespace {
 
 constexpr std::array wheels = {Wheel::left, Wheel::right};
 
-constexpr double torque_ceiling_Nm = robot_spec(Role::forward).max_wheel_torque_Nm;
-
 class ServoPlant final : public Plant {
  public:
-  explicit ServoPlant(std::size_t robot) : robot_(robot) {}
+  ServoPlant(std::size_t robot, double torque_ceiling_Nm)
+      : robot_(robot), torque_ceiling_Nm_(torque_ceiling_Nm) {}
 
   [[nodiscard]] std::uint32_t ticks_per_step() const override { return 10; }
   void reset() override { measured_ = {}; }
 
-  void actuate(World& world, const can::WheelCommand& command, bool cut) override {
-    const double ceiling_Nm = cut ? 0.0 : torque_ceiling_Nm;
-    world.servo_wheel(robot_, Wheel::left, command.left_set_point_2mm_s * 2e-3, ceiling_Nm);
-    world.servo_wheel(robot_, Wheel::right, command.right_set_point_2mm_s * 2e-3, ceiling_Nm);
+  void actuate(World& world, const WheelOrders& orders, bool cut) override {
+    const double ceiling_Nm = cut ? 0.0 : torque_ceiling_Nm_;
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+      world.servo_wheel(robot_, wheels[i], orders[i].rim_speed_m_s, ceiling_Nm);
+    }
   }
 
   void sense(const World& world) override {
@@ -36,21 +36,22 @@ class ServoPlant final : public Plant {
 
  private:
   std::size_t robot_;
+  double torque_ceiling_Nm_;
   RimSpeeds measured_;
 };
 
 class DrivePlant final : public Plant {
  public:
-  explicit DrivePlant(std::size_t robot) : robot_(robot) {}
+  DrivePlant(std::size_t robot, double torque_ceiling_Nm)
+      : robot_(robot), torque_ceiling_Nm_(torque_ceiling_Nm) {}
 
   [[nodiscard]] std::uint32_t ticks_per_step() const override { return 1; }
   void reset() override { channels_ = {}; }
 
-  void actuate(World& world, const can::WheelCommand& command, bool cut) override {
-    const std::array torques_mNm = {command.left_torque_mNm, command.right_torque_mNm};
+  void actuate(World& world, const WheelOrders& orders, bool cut) override {
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       const double wanted_Nm =
-          cut ? 0.0 : std::clamp(torques_mNm[i] * 1e-3, -torque_ceiling_Nm, torque_ceiling_Nm);
+          cut ? 0.0 : std::clamp(orders[i].torque_Nm, -torque_ceiling_Nm_, torque_ceiling_Nm_);
       channels_[i].torque_Nm += current_loop_gain * (wanted_Nm - channels_[i].torque_Nm);
       world.torque_wheel(robot_, wheels[i], channels_[i].torque_Nm);
     }
@@ -78,25 +79,29 @@ class DrivePlant final : public Plant {
     double speed_m_s = 0.0;
   };
 
-  static constexpr double step_s = 0.001;
+  static constexpr double step_s = tick_s;
   static constexpr double count_m = 2.0 * std::numbers::pi * wheel_radius_m / 16384.0;
   static constexpr double current_loop_gain = 0.6321205588285577;  // 1 - exp(-1 ms / 1 ms)
 
   std::size_t robot_;
+  double torque_ceiling_Nm_;
   std::array<Channel, 2> channels_;
 };
 
 }  // namespace
 
-std::string name_of(PlantKind kind) {
-  return kind == PlantKind::servo ? "servo" : "drive";
+std::optional<PlantKind> plant_kind_of(std::string_view name) {
+  const auto* const found = std::find_if(plant_kinds.begin(), plant_kinds.end(),
+                                         [&](PlantKind kind) { return name_of(kind) == name; });
+  return found == plant_kinds.end() ? std::nullopt : std::optional(*found);
 }
 
-std::unique_ptr<Plant> make_plant(PlantKind kind, std::size_t robot) {
+std::unique_ptr<Plant> make_plant(PlantKind kind, std::size_t robot, Role role) {
+  const double torque_ceiling_Nm = robot_spec(role).max_wheel_torque_Nm;
   if (kind == PlantKind::servo) {
-    return std::make_unique<ServoPlant>(robot);
+    return std::make_unique<ServoPlant>(robot, torque_ceiling_Nm);
   }
-  return std::make_unique<DrivePlant>(robot);
+  return std::make_unique<DrivePlant>(robot, torque_ceiling_Nm);
 }
 
 }  // namespace striker::sil

@@ -1,37 +1,31 @@
-// The virtual two-wheel motor controller on the bus: checks every wheel command, holds the last valid one,
-// and cuts the torque by itself when commands stop.
+// A robot's virtual motor controllers as nodes on its bus: they check every command frame, hold the last valid
+// command, report what they measure, and cut the torque by themselves when commands stop. What the motors make
+// of a command is the plant's (sil/robot/plant.hpp).
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "firmware/can/codec.hpp"
+#include "firmware/can/frame.hpp"
 #include "sil/robot/plant.hpp"
 
 namespace striker::sil {
 
 class WheelDrives {
  public:
-  // Torque is cut when no valid command came for this long (the message table's timeout: 10 ms).
-  static constexpr std::uint32_t timeout_ticks = can::layout<can::WheelCommand>.info.timeout_ms;
+  virtual ~WheelDrives() = default;
 
   // Frames with other identifiers are not for the drives.
-  void take(const can::Frame& frame, std::uint32_t tick);
+  virtual void take(const can::Frame& frame, std::uint32_t tick) = 0;
 
-  [[nodiscard]] bool cut(std::uint32_t tick) const {
-    return !commanded_ || tick - command_tick_ >= timeout_ticks;
-  }
-  [[nodiscard]] const can::WheelCommand& command() const { return command_; }
-  [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
+  // The drives' watchdog holds the torque at 0: no command yet, or none for too long.
+  [[nodiscard]] virtual bool cut(std::uint32_t tick) const = 0;
 
-  [[nodiscard]] can::Frame state_frame(const RimSpeeds& speeds, std::uint32_t tick);
+  // What the last valid command says; before one came, nothing at all: 0.
+  [[nodiscard]] virtual const WheelOrders& orders() const = 0;
 
- private:
-  can::ReceiveCounter receive_counter_;
-  can::SendCounter send_counter_;
-  can::WheelCommand command_;
-  std::uint32_t command_tick_ = 0;
-  bool commanded_ = false;
-  std::uint64_t ignored_ = 0;  // frames that failed a check
+  // Appends the frames that tell these speeds.
+  virtual void report(const RimSpeeds& speeds, std::uint32_t tick, std::vector<can::Frame>& frames) = 0;
 };
 
 }  // namespace striker::sil

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
 #include "firmware/host/atomic_file.hpp"
+#include "sil/task/mean_estimate.hpp"
 
 namespace striker::sil {
 namespace {
@@ -37,7 +37,7 @@ double realtime_factor(const KickRun& run) {
 }
 
 nlohmann::ordered_json run_json(const KickRun& run) {
-  const KickSummary summary = summarise(run.episodes);
+  const KickSummary summary = kick_summary(run.episodes);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < run.episodes.size(); ++i) {
     rows.push_back(row_json(run.first_episode + i, run.episodes[i]));
@@ -73,24 +73,22 @@ std::string row_text(std::uint64_t episode, const KickOutcome& outcome) {
 
 }  // namespace
 
-KickSummary summarise(const std::vector<KickOutcome>& episodes) {
+KickSummary kick_summary(const std::vector<KickOutcome>& episodes) {
   KickSummary summary;
   if (episodes.empty()) {
     return summary;
   }
   const auto count = static_cast<double>(episodes.size());
+  std::vector<double> rewards;
+  rewards.reserve(episodes.size());
   for (const KickOutcome& outcome : episodes) {
-    summary.mean_reward += outcome.reward / count;
+    rewards.push_back(outcome.reward);
     summary.contact_rate += outcome.contact ? 1.0 / count : 0.0;
     summary.kick_rate += outcome.kicked ? 1.0 / count : 0.0;
   }
-  double squares = 0.0;
-  for (const KickOutcome& outcome : episodes) {
-    squares += (outcome.reward - summary.mean_reward) * (outcome.reward - summary.mean_reward);
-  }
-  if (episodes.size() > 1) {
-    summary.reward_ci95 = 1.96 * std::sqrt(squares / (count - 1.0) / count);
-  }
+  const MeanEstimate reward = mean_estimate(rewards);
+  summary.mean_reward = reward.mean;
+  summary.reward_ci95 = 1.96 * reward.standard_error;
   return summary;
 }
 
@@ -109,7 +107,7 @@ std::string format_table(const KickRun& run, bool rows) {
       text += row_text(run.first_episode + i, run.episodes[i]);
     }
   }
-  const KickSummary summary = summarise(run.episodes);
+  const KickSummary summary = kick_summary(run.episodes);
   text += fmt::format(
       "{} episodes: mean reward {:.3f} +- {:.3f}, contact rate {:.3f}, kick rate {:.3f}, {:.1f} x real "
       "time\n",

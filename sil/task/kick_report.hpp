@@ -28,7 +28,7 @@ struct KickSummary {
   double kick_rate = 0.0;
 };
 
-[[nodiscard]] KickSummary summarise(const std::vector<KickOutcome>& episodes);
+[[nodiscard]] KickSummary kick_summary(const std::vector<KickOutcome>& episodes);
 
 // The JSON summary with the per-episode rows. Written to a temporary file, then renamed. Throws
 // std::runtime_error that names the file and the way out.

@@ -4,8 +4,10 @@
 #include <numbers>
 
 #include "sil/world/field_specs.hpp"
+#include "sil/world/physics_constants.hpp"
 #include "sil/world/planar_world.hpp"
 #include "sil/world/random.hpp"
+#include "sil/world/random_streams.hpp"
 
 namespace striker::sil {
 namespace {
@@ -17,13 +19,6 @@ constexpr double ball_distance_m = 2.0;
 constexpr double measured_after_s = 0.100;
 constexpr double kick_angle_rad = 15.0 * pi / 180.0;
 constexpr double kick_speed_m_s = 1.0;
-
-// Streams of an episode's draws: one each for the ball and the pose.
-constexpr std::uint64_t ball_stream = 1;
-constexpr std::uint64_t pose_stream = 2;
-
-// -ln 0.8: the world's damping as a rate.
-constexpr double damping_per_s = 0.22314355131420976;
 
 Vec2 along(double direction_rad) {
   return {std::cos(direction_rad), std::sin(direction_rad)};
@@ -53,7 +48,7 @@ Vec2 rotated(Vec2 a, double angle) {
 }
 
 Pose draw_pose(std::uint64_t seed, std::uint64_t episode) {
-  Random random(seed, episode, pose_stream);
+  Random random(seed, episode, random_stream::pose);
   Pose pose;
   pose.x_m = random.uniform(-field_half_length_m, field_half_length_m);
   pose.y_m = random.uniform(-field_half_width_m, field_half_width_m);
@@ -63,7 +58,7 @@ Pose draw_pose(std::uint64_t seed, std::uint64_t episode) {
 
 // In the robot's frame.
 BallState draw_ball(std::uint64_t seed, std::uint64_t episode, const KickRules& rules) {
-  Random random(seed, episode, ball_stream);
+  Random random(seed, episode, random_stream::ball);
   const Vec2 from = ball_distance_m * along(random.uniform(-pi, pi));
   const double speed_m_s = random.uniform(rules.slowest_ball_m_s, rules.fastest_ball_m_s);
   const double aim_distance_m = rules.aim_radius_m * std::sqrt(random.uniform());
@@ -96,16 +91,16 @@ WorldConfig kick_world(double step_s) {
   return {.robots = {Role::forward}, .walls = false, .step_s = step_s};
 }
 
-template <typename World>
-void KickEpisode::begin(World& world, const KickStart& start) {
+template <KickWorld W>
+void KickEpisode::begin(W& world, const KickStart& start) {
   world.place_robot(0, start.robot);
   world.place_ball(start.ball);
   *this = KickEpisode(rules_);
   target_heading_rad_ = start.robot.heading_rad;
 }
 
-template <typename World>
-void KickEpisode::step(World& world) {
+template <KickWorld W>
+void KickEpisode::step(W& world) {
   const Pose robot = world.robot_pose(0);
   const Vec2 robot_velocity = world.robot_velocity_m_s(0);
   const Vec2 ball = world.ball().position_m;

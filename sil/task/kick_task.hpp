@@ -8,12 +8,14 @@
 
 #include <cstdint>
 
+#include "sil/task/kick_world.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {
 
 inline constexpr int kick_decisions = 40;
-inline constexpr double decision_period_s = 0.050;
+inline constexpr int decision_period_ms = 50;  // the AI Soccer frame
+inline constexpr double decision_period_s = decision_period_ms / 1000.0;
 
 enum class PoseMode { origin, anywhere };
 
@@ -65,11 +67,10 @@ class KickEpisode {
  public:
   explicit KickEpisode(const KickRules& rules = {}) : rules_(rules) {}
 
-  // World is sil::World or PlanarWorld.
-  template <typename World>
-  void begin(World& world, const KickStart& start);  // places robot and ball
-  template <typename World>
-  void step(World& world);
+  template <KickWorld W>
+  void begin(W& world, const KickStart& start);  // places robot and ball
+  template <KickWorld W>
+  void step(W& world);
   double end_decision();  // the reward of the decision that ends here
   [[nodiscard]] const KickOutcome& outcome() const { return outcome_; }
 

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 
+#include "sil/world/physics_constants.hpp"
 #include "sil/world/robot_specs.hpp"
 #include "sil/world/world.hpp"
 
@@ -36,13 +37,21 @@ struct PlanarRobot {
   double turned_cos = 1.0;  // of the angle that the last step turned
 };
 
-inline constexpr double planar_mass_kg = 1.8;
-// Body (a box) and wheels about the vertical axis, which no turn changes; wheels' movement and spin.
+inline constexpr RobotSpec planar_spec = robot_spec(Role::forward);
+// What a wheel weighs that rolls: its spin counts half its mass more. 15 / 10, as 1.5 times 0.1 rounds to another
+// double than 0.15.
+inline constexpr double planar_rolling_wheel_kg = 15.0 * planar_spec.wheel_mass_kg / 10.0;
+inline constexpr double planar_mass_kg = planar_spec.body_mass_kg + 2.0 * planar_rolling_wheel_kg;
+// Body (a box) and wheels (cylinders) about the vertical axis, which no turn changes; wheels' movement and spin.
 inline constexpr double planar_own_inertia_kgm2 =
-    1.5 * (0.15 * 0.15 + 0.15 * 0.15) / 12.0 + 2.0 * 0.1 * (3.0 * 0.04 * 0.04 + 0.004 * 0.004) / 12.0;
-inline constexpr double planar_wheel_inertia_kgm2 = 2.0 * 0.15 * 0.07 * 0.07;
+    planar_spec.body_mass_kg * (robot_side_m * robot_side_m + robot_side_m * robot_side_m) / 12.0 +
+    2.0 * planar_spec.wheel_mass_kg *
+        (3.0 * wheel_radius_m * wheel_radius_m + wheel_thickness_m * wheel_thickness_m) / 12.0;
+inline constexpr double planar_wheel_inertia_kgm2 =
+    2.0 * planar_rolling_wheel_kg * (0.5 * axle_length_m) * (0.5 * axle_length_m);
 inline constexpr double planar_inertia_kgm2 = planar_own_inertia_kgm2 + planar_wheel_inertia_kgm2;
-inline constexpr double planar_grip_N = 3.0 * 9.81 * 1.7 / 2.0;  // of one tyre
+inline constexpr double planar_grip_N =  // of one tyre
+    tyre_friction * gravity_m_s2 * (planar_spec.body_mass_kg + 2.0 * planar_spec.wheel_mass_kg) / 2.0;
 
 [[nodiscard]] PlanarRobot planar_robot(const Pose& pose);  // at rest
 

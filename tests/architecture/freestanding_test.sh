@@ -1,5 +1,5 @@
 #!/bin/bash
-# Compiles firmware/core and firmware/can freestanding, for x86-64 and Cortex-M0+, and reads the objects' undefined
+# Compiles the firmware's parts (policy, core, can, safety, loop) freestanding, for x86-64 and Cortex-M0+, and reads the objects' undefined
 # symbols: none of an allocator, of floating point, of libm or of exceptions.
 # Usage: freestanding_test.sh SOURCE_DIRECTORY POLICY_HEADER
 set -euo pipefail
@@ -25,7 +25,7 @@ check() {
   shift 2
   mkdir "$work/$name"
   local file object
-  for file in "$source_dir"/firmware/core/*.cpp "$source_dir"/firmware/can/*.cpp; do
+  for file in $(find "$source_dir"/firmware/{policy,core,can,safety,loop} -name '*.cpp' 2>/dev/null); do
     object=$work/$name/$(basename "$file" .cpp).o
     "$@" "${flags[@]}" -c "$file" -o "$object"
   done

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sil/budget/dbc_reader.hpp"
+
 namespace striker::sil {
 namespace {
 
@@ -84,10 +86,10 @@ TEST_F(MessageSet, WhatIsWrongIsNamed) {
 TEST_F(MessageSet, TheControllersFramesAreAsLateAsItsStep) {
   auto messages = table_messages();
   set_jitter(messages, {.controller_ns = 7, .others_ns = 3});
-  EXPECT_EQ(find(messages, "WheelCommand")->jitter_ns, 7);
-  EXPECT_EQ(find(messages, "Status")->jitter_ns, 7);
-  EXPECT_EQ(find(messages, "WheelState")->jitter_ns, 3);
-  EXPECT_EQ(find(messages, "Unheard"), nullptr);
+  EXPECT_EQ(find_message(messages, "WheelCommand")->jitter_ns, 7);
+  EXPECT_EQ(find_message(messages, "Status")->jitter_ns, 7);
+  EXPECT_EQ(find_message(messages, "WheelState")->jitter_ns, 3);
+  EXPECT_EQ(find_message(messages, "Unheard"), nullptr);
 }
 
 }  // namespace

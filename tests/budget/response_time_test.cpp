@@ -38,7 +38,7 @@ const std::vector<BusMessage> papers_example = {periodic("A", 1, 7, 2500 * us, 2
 constexpr BusAssumptions papers_bus = {.bit_ns = 8000};  // 125 kbit/s
 
 TEST(ResponseTime, ThePapersExample) {
-  const auto responses = analyse(papers_example, papers_bus);
+  const auto responses = response_times(papers_example, papers_bus);
   for (const MessageResponse& response : responses) {
     EXPECT_EQ(response.frame_ns, 1 * ms);
   }
@@ -57,13 +57,14 @@ TEST(ResponseTime, ThePapersExampleHappensOnTheSimulatedBus) {
 }
 
 TEST(ResponseTime, AFullBusHasNoBound) {
-  const auto full = analyse({periodic("A", 1, 8, 135 * us, ms), periodic("B", 2, 8, 10 * ms, ms)}, {});
+  const auto full = response_times({periodic("A", 1, 8, 135 * us, ms), periodic("B", 2, 8, 10 * ms, ms)}, {});
   EXPECT_FALSE(full[0].response_ns);
   EXPECT_FALSE(full[1].response_ns);
   EXPECT_FALSE(meets_deadline(papers_example[0], full[0]));
-  const auto all_but_full = analyse({periodic("A", 1, 8, 136 * us, ms)}, {});
+  const auto all_but_full = response_times({periodic("A", 1, 8, 136 * us, ms)}, {});
   EXPECT_EQ(all_but_full[0].response_ns, 135 * us);
-  EXPECT_FALSE(analyse({periodic("A", 1, 8, 136 * us, ms)}, {.error_distance_ns = 10 * ms})[0].response_ns);
+  EXPECT_FALSE(
+      response_times({periodic("A", 1, 8, 136 * us, ms)}, {.error_distance_ns = 10 * ms})[0].response_ns);
 }
 
 // By hand: blocking 135, then A twice (its jitter brings the second to 100), C 135, each in us.
@@ -72,11 +73,11 @@ TEST(ResponseTime, JitterBlockingAndErrorsByHand) {
                                       periodic("B", 2, 8, 10 * ms, 10 * ms),
                                       periodic("C", 3, 8, 10 * ms, 10 * ms)};
   messages[0].jitter_ns = 200 * us;
-  EXPECT_EQ(analyse(messages, {})[1].response_ns, (135 + 2 * 55 + 135) * us);
+  EXPECT_EQ(response_times(messages, {})[1].response_ns, (135 + 2 * 55 + 135) * us);
   messages[1].jitter_ns = 7 * us;
-  EXPECT_EQ(analyse(messages, {})[1].response_ns, (7 + 135 + 2 * 55 + 135) * us);
+  EXPECT_EQ(response_times(messages, {})[1].response_ns, (7 + 135 + 2 * 55 + 135) * us);
   // An error costs 31 bits and the frame again; the longer window brings A a third time.
-  EXPECT_EQ(analyse(messages, {.error_distance_ns = 100 * ms})[1].response_ns,
+  EXPECT_EQ(response_times(messages, {.error_distance_ns = 100 * ms})[1].response_ns,
             (7 + 135 + 3 * 55 + (31 + 135) + 135) * us);
 }
 
@@ -85,9 +86,9 @@ TEST(ResponseTime, FramesOnChangesByHand) {
   messages[0].burst = 3;
   messages[0].distance_ns = 60 * us;
   // 0: A; 55: B waited, no second A before 60: B goes.
-  EXPECT_EQ(analyse(messages, {})[1].response_ns, (55 + 55) * us);
+  EXPECT_EQ(response_times(messages, {})[1].response_ns, (55 + 55) * us);
   messages[0].distance_ns = 40 * us;
-  EXPECT_EQ(analyse(messages, {})[1].response_ns, (3 * 55 + 55) * us);
+  EXPECT_EQ(response_times(messages, {})[1].response_ns, (3 * 55 + 55) * us);
 }
 
 // ---- random message sets -------------------------------------------------------------------------------
@@ -175,7 +176,7 @@ TEST(ResponseTime, NoSimulatedBusIsBeyondTheBound) {
   std::uint64_t judged = 0;
   for (std::uint64_t set = 0; set < 10'000; ++set) {
     const Drawn drawn = draw_set(random);
-    const auto bounds = analyse(drawn.messages, drawn.assumptions);
+    const auto bounds = response_times(drawn.messages, drawn.assumptions);
     const std::int64_t horizon_ns = std::int64_t{300} * 135 * drawn.assumptions.bit_ns;
     const bool real_bits = random.uniform() < 0.3;
     const auto bits_of = [&](const BusMessage& message) {
@@ -203,7 +204,7 @@ struct Reached {
 
 // The blocking frame has to have begun a bit earlier: so a bit is lost.
 void attack_every_message(const std::vector<BusMessage>& messages, std::int64_t bit_ns, Reached& reached) {
-  const auto bounds = analyse(messages, {.bit_ns = bit_ns});
+  const auto bounds = response_times(messages, {.bit_ns = bit_ns});
   for (std::size_t victim = 0; victim < messages.size(); ++victim) {
     if (!bounds[victim].response_ns) {
       continue;

@@ -1,5 +1,5 @@
 // The CORDIC against double-precision trigonometry: the errors that angle.hpp states.
-#include "firmware/core/angle.hpp"
+#include "firmware/core/estimation/angle.hpp"
 
 #include <gtest/gtest.h>
 

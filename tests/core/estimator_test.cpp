@@ -1,5 +1,5 @@
 // The estimator on ideal pictures: exact velocities, lead between pictures, and nothing kept after a reset.
-#include "firmware/core/estimator.hpp"
+#include "firmware/core/estimation/estimator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@ namespace striker::core {
 namespace {
 
 // Puts a picture of a ball that moves 3 counts along x and -2 along y a frame into the estimator.
-bool show(Estimator& estimator, std::int32_t frame, std::uint32_t tick, can::VisionPose pose = {}) {
-  pose.frame = frame % 16;
-  estimator.take_pose(pose);
-  estimator.take_ball(
-      {.frame = frame % 16, .x_quarter_mm = 4000 + 300 * frame, .y_quarter_mm = -200 * frame});
+bool show(Estimator& estimator, std::int32_t number, std::uint32_t tick, RobotSighting robot = {}) {
+  robot.picture = number % 16;
+  estimator.take(robot);
+  estimator.take(BallSighting{.picture = number % 16,
+                              .position_um = {250 * (4000 + 300 * number), 250 * -200 * number}});
   return estimator.end_tick(tick);
 }
 
@@ -33,7 +33,7 @@ TEST(Estimator, LostFramesAreCountedByTheirNumbersNotByTime) {
     show(estimator, 14, 0);
     const bool complete = show(estimator, 14 + step, 7);  // the arrival does not matter
     EXPECT_EQ(complete, step != 16) << "a repeated frame number is the same picture";
-    EXPECT_EQ(estimator.has_velocity(), step <= greatest_frame_step) << step;
+    EXPECT_EQ(estimator.has_velocity(), step <= greatest_picture_step) << step;
     if (estimator.has_velocity()) {
       EXPECT_EQ(estimator.at(7).ball_velocity_mm_s.x, 1500) << step;
     }
@@ -42,19 +42,19 @@ TEST(Estimator, LostFramesAreCountedByTheirNumbersNotByTime) {
 
 TEST(Estimator, APoseWithoutItsBallIsNoPicture) {
   Estimator estimator;
-  estimator.take_pose({.frame = 1});
-  estimator.take_ball({.frame = 2});
+  estimator.take(RobotSighting{.picture = 1});
+  estimator.take(BallSighting{.picture = 2});
   EXPECT_FALSE(estimator.end_tick(0));
-  estimator.take_pose({.frame = 2});
+  estimator.take(RobotSighting{.picture = 2});
   EXPECT_TRUE(estimator.end_tick(1));
 }
 
 TEST(Estimator, BetweenPicturesBallAndRobotAreLedOn) {
   Estimator estimator;
-  const can::VisionPose facing_left{.x_quarter_mm = 400, .y_quarter_mm = 800, .heading = 16384};
+  const RobotSighting facing_left{.position_um = {100'000, 200'000}, .heading = 16384};
   show(estimator, 0, 0, facing_left);
   show(estimator, 1, 50, facing_left);
-  estimator.take_wheels({.left_mm_s = 1000, .right_mm_s = 1200});
+  estimator.take(WheelSpeeds{.left_mm_s = 1000, .right_mm_s = 1200});
   for (std::uint32_t tick = 51; tick <= 70; ++tick) {
     EXPECT_FALSE(estimator.end_tick(tick));
   }
@@ -70,7 +70,7 @@ TEST(Estimator, MissedTicksAreLedOverToo) {
   Estimator some;
   for (Estimator* estimator : {&every, &some}) {
     show(*estimator, 0, 0);
-    estimator->take_wheels({.left_mm_s = 2000, .right_mm_s = 2000});
+    estimator->take(WheelSpeeds{.left_mm_s = 2000, .right_mm_s = 2000});
   }
   for (std::uint32_t tick = 1; tick <= 30; ++tick) {
     every.end_tick(tick);
@@ -101,7 +101,7 @@ TEST(Estimator, ALongSilenceStaysWithinBounds) {
   Estimator estimator;
   show(estimator, 0, 0);
   show(estimator, 1, 50);
-  estimator.take_wheels({.left_mm_s = 8000, .right_mm_s = 8000});
+  estimator.take(WheelSpeeds{.left_mm_s = 8000, .right_mm_s = 8000});
   for (std::uint32_t tick = 51; tick < 2'000'000; ++tick) {
     estimator.end_tick(tick);
   }

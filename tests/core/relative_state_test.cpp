@@ -1,6 +1,6 @@
 // The RCS state against the paper's equations in double precision (corrected form), and its invariance: the
 // same situation at another place on the field is the same state.
-#include "firmware/core/relative_state.hpp"
+#include "firmware/core/estimation/relative_state.hpp"
 
 #include <gtest/gtest.h>
 

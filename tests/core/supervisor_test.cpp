@@ -8,21 +8,18 @@
 namespace striker::core {
 namespace {
 
-using can::Fault;
-using can::State;
-
 std::vector<Conditions> all_conditions() {
   std::vector<Conditions> all;
-  for (unsigned bits = 0; bits < 128; ++bits) {
+  for (unsigned bits = 0; bits < 256; ++bits) {
     for (const SelfTest test : {SelfTest::running, SelfTest::passed, SelfTest::failed}) {
-      all.push_back({.self_test = test,
-                     .arm = (bits & 1U) != 0,
-                     .disarm = (bits & 2U) != 0,
-                     .clear = (bits & 4U) != 0,
-                     .emergency_stop = (bits & 8U) != 0,
-                     .vision_fresh = (bits & 16U) != 0,
-                     .vision_ready = (bits & 48U) == 48,
-                     .wheels_fresh = (bits & 64U) != 0});
+      all.push_back(
+          {.self_test = test,
+           .requests = {.arm = (bits & 1U) != 0, .disarm = (bits & 2U) != 0, .clear = (bits & 4U) != 0},
+           .emergency_stop = (bits & 8U) != 0,
+           .port_fault = (bits & 128U) != 0 ? Fault::overrun : Fault::none,
+           .vision_fresh = (bits & 16U) != 0,
+           .vision_ready = (bits & 48U) == 48,
+           .wheels_fresh = (bits & 64U) != 0});
     }
   }
   return all;
@@ -52,17 +49,18 @@ TEST(Supervisor, OnlyAnArmRequestWithFreshInputsLeadsToActive) {
   for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
     if (next.state == State::active && now.state != State::active) {
       EXPECT_EQ(now.state, State::standby);
-      EXPECT_TRUE(c.arm && !c.disarm && c.vision_ready && c.wheels_fresh && !c.emergency_stop);
+      EXPECT_TRUE(c.requests.arm && !c.requests.disarm && c.vision_ready && c.wheels_fresh);
     }
     if (next.state == State::active) {
-      EXPECT_TRUE(c.vision_fresh && c.wheels_fresh && !c.emergency_stop && !c.disarm);
+      EXPECT_TRUE(c.vision_fresh && c.wheels_fresh && !c.emergency_stop && !c.requests.disarm);
+      EXPECT_EQ(c.port_fault, Fault::none);
     }
   });
 }
 
 TEST(Supervisor, TheFirstFaultIsKeptUntilItIsCleared) {
   for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
-    if (now.state == State::fault && !c.clear) {
+    if (now.state == State::fault && !c.requests.clear) {
       EXPECT_EQ(next.state, State::fault);
       EXPECT_EQ(next.fault, now.fault);
     }
@@ -76,8 +74,8 @@ TEST(Supervisor, AClearIsRefusedWhileTheCauseLasts) {
                        (now.fault == Fault::emergency_stop && c.emergency_stop) ||
                        (now.fault == Fault::vision_lost && !c.vision_fresh) ||
                        (now.fault == Fault::wheel_state_lost && !c.wheels_fresh) || c.emergency_stop ||
-                       c.self_test == SelfTest::failed;
-    if (now.state == State::fault && c.clear) {
+                       c.self_test == SelfTest::failed || c.port_fault != Fault::none;
+    if (now.state == State::fault && c.requests.clear) {
       EXPECT_EQ(next.state == State::fault, lasts);
     }
   });
@@ -96,6 +94,18 @@ TEST(Supervisor, AnEmergencyStopStopsEveryState) {
   for_every_step([](const Supervisor&, const Conditions& c, const Supervisor& next) {
     if (c.emergency_stop) {
       EXPECT_EQ(next.state, State::fault);
+    }
+  });
+}
+
+TEST(Supervisor, APortsFaultStopsEveryStateAndLastsAsLongAsThePortSaysSo) {
+  for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
+    if (c.port_fault != Fault::none) {
+      EXPECT_EQ(next.state, State::fault);
+    }
+    if (now.state != State::fault && c.port_fault != Fault::none && !c.emergency_stop &&
+        c.self_test != SelfTest::failed) {
+      EXPECT_EQ(next.fault, c.port_fault);
     }
   });
 }

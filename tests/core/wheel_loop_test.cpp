@@ -10,6 +10,7 @@
 namespace striker::core {
 namespace {
 
+constexpr RobotProfile robot = profile_of(forward);
 constexpr double acceleration_mm_s2_per_mNm = 27.8;
 
 // Runs the loop for a while on a forward robot with a 1 ms current-loop lag; returns the final speed.
@@ -22,7 +23,7 @@ struct Rig {
   void run(std::int32_t set_point_mm_s, int ticks, double drag_mNm = 0.0) {
     for (int tick = 0; tick < ticks; ++tick) {
       const std::int32_t wanted =
-          loop.step(set_point_mm_s, static_cast<std::int32_t>(std::lround(speed_mm_s)));
+          loop.step(robot, set_point_mm_s, static_cast<std::int32_t>(std::lround(speed_mm_s)));
       torque_mNm += 0.632 * (wanted - torque_mNm);
       speed_mm_s += acceleration_mm_s2_per_mNm * (torque_mNm - drag_mNm) * 0.001;
       greatest_mm_s = std::max(greatest_mm_s, speed_mm_s);
@@ -42,7 +43,7 @@ TEST(WheelLoop, NeverExceedsTheTorqueLimit) {
   std::uniform_int_distribution<std::int32_t> speed(-8000, 8000);
   WheelLoop loop;
   for (int i = 0; i < 200'000; ++i) {
-    ASSERT_LE(std::abs(loop.step(speed(random), speed(random))), torque_limit_mNm);
+    ASSERT_LE(std::abs(loop.step(robot, speed(random), speed(random))), robot.torque_limit_mNm);
   }
 }
 
@@ -56,9 +57,9 @@ TEST(WheelLoop, RemovesASteadyLoad) {
 TEST(WheelLoop, DoesNotWindUp) {
   WheelLoop loop;
   for (int tick = 0; tick < 10'000; ++tick) {
-    EXPECT_EQ(loop.step(2550, 0), torque_limit_mNm);
+    EXPECT_EQ(loop.step(robot, 2550, 0), robot.torque_limit_mNm);
   }
-  EXPECT_LE(loop.step(0, 500), -torque_limit_mNm + 1);
+  EXPECT_LE(loop.step(robot, 0, 500), -robot.torque_limit_mNm + 1);
 }
 
 }  // namespace

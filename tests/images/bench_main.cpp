@@ -10,6 +10,8 @@
 #include <limits>
 #include <numeric>
 
+#include "firmware/can/codec.hpp"
+#include "firmware/loop/built_in_node.hpp"
 #include "firmware/policy/built_in.hpp"
 #include "firmware/policy/kernel/int16/portable.hpp"
 #include "firmware/policy/network.hpp"
@@ -106,15 +108,15 @@ Range count_inference(std::uint32_t inputs) {
   return range;
 }
 
-// A copy of the controller takes each repetition: copying is counted on its own, and taken off.
-[[gnu::noinline]] std::uint32_t count_steps(const Controller& before, const Inputs& inputs, Outputs& outputs,
-                                            std::uint32_t repetitions, bool steps) {
+// A copy of the node takes each repetition: copying is counted on its own, and taken off.
+[[gnu::noinline]] std::uint32_t count_steps(const loop::BuiltInNode& before, const loop::Tick& tick,
+                                            can::FrameList& sent, std::uint32_t repetitions, bool steps) {
   images::restart_counter();
   for (std::uint32_t i = 0; i < repetitions; ++i) {
-    Controller controller = before;
-    asm volatile("" : : "r"(&controller) : "memory");
+    loop::BuiltInNode node = before;
+    asm volatile("" : : "r"(&node) : "memory");
     if (steps) {
-      controller.step(inputs, outputs);
+      node.step(tick, sent);
     }
   }
   return images::counted();
@@ -122,8 +124,8 @@ Range count_inference(std::uint32_t inputs) {
 
 void count_recorded_steps(images::Recording& recording, std::uint32_t most_ticks) {
   const std::uint32_t repetitions = exact_repetitions();
-  Controller controller;
-  Outputs outputs;
+  loop::BuiltInNode node(loop::built_in_robot);
+  can::FrameList sent;
   std::array<can::Frame, 32> frames{};
   std::size_t frame_count = 0;
   std::uint32_t tick = 0;
@@ -139,14 +141,15 @@ void count_recorded_steps(images::Recording& recording, std::uint32_t most_ticks
       frames[frame_count++] = recorded.frame;
       continue;
     }
-    const Inputs inputs{.tick = tick++, .frames = std::span(frames).first(frame_count)};
+    const loop::Tick now{.number = tick++, .frames = std::span(frames).first(frame_count)};
     frame_count = 0;
-    const std::uint32_t copying = count_steps(controller, inputs, outputs, repetitions, false);
-    const std::uint32_t all = count_steps(controller, inputs, outputs, repetitions, true);
-    const bool boots = controller.state() == can::State::boot || controller.state() == can::State::self_test;
-    controller.step(inputs, outputs);
+    const std::uint32_t copying = count_steps(node, now, sent, repetitions, false);
+    const std::uint32_t all = count_steps(node, now, sent, repetitions, true);
+    const bool boots =
+        node.controller().state() == State::boot || node.controller().state() == State::self_test;
+    node.step(now, sent);
     bool decided = false;
-    for (const can::Frame& frame : outputs.frames()) {
+    for (const can::Frame& frame : sent.frames()) {
       decided = decided || can::is<can::Decision>(frame);
     }
     (decided ? with_decision : boots ? self_test : without).add(instructions(all - copying, repetitions));
@@ -170,7 +173,7 @@ int main() {
       "multiply-accumulates",
       Shape::inputs * Shape::hidden1 + Shape::hidden1 * Shape::hidden2 + Shape::hidden2 * Shape::actions);
   images::console::print_line("weight bytes", Packed<trained>::bytes);
-  images::console::print_line("controller bytes", sizeof(Controller));
+  images::console::print_line("node bytes", sizeof(loop::BuiltInNode));
   if (const std::uint32_t inputs = images::console::argument("inputs", 0); inputs > 0) {
     const Range range = count_inference<trained>(inputs);
     images::console::print_line("inference inputs", inputs);

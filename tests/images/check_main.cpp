@@ -8,12 +8,16 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "firmware/core/controller.hpp"
-#include "firmware/core/relative_state.hpp"
+#include "firmware/can/codec.hpp"
+#include "firmware/core/estimation/relative_state.hpp"
+#include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/sync_ticks.hpp"
+#include "firmware/loop/tick_loop.hpp"
 #include "firmware/policy/built_in.hpp"
 #include "firmware/policy/network.hpp"
 #include "firmware/policy/proof.hpp"
 #include "tests/images/console.hpp"
+#include "tests/images/frame_queue.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/policy/synthetic_policy.hpp"
 
@@ -109,8 +113,10 @@ void hash_frame(proof::Fnv1a& hash, const can::Frame& frame) {
 
 // Ticks and decisions, the answers' hash, and the first tick whose answer differed.
 void replay(images::Recording& recording) {
-  SyncClock clock;
-  Outputs outputs;
+  images::FrameQueue bus;
+  loop::SyncTicks sync;
+  loop::TickLoop<loop::BuiltInNode, images::FrameQueue, loop::SyncTicks> loop(loop::built_in_robot, bus,
+                                                                              sync);
   proof::Fnv1a hash;
   images::RecordedFrame recorded;
   std::int64_t ticks = 0;
@@ -124,21 +130,22 @@ void replay(images::Recording& recording) {
   };
   while (recording.next(recorded)) {
     if (recorded.answer) {
-      const auto frames = outputs.frames();
+      const auto frames = bus.sent();
       if (answered >= frames.size() || frames[answered] != recorded.frame) {
         differs();
       }
       ++answered;
       continue;
     }
-    const bool was_complete = answered == outputs.frames().size();
+    const bool was_complete = answered == bus.sent().size();
     if (!was_complete && can::is<can::Sync>(recorded.frame)) {
       differs();
     }
-    if (clock.take(recorded.frame, outputs)) {
+    bus.push(recorded.frame);
+    if (loop.turn()) {
       ++ticks;
       answered = 0;
-      for (const can::Frame& frame : outputs.frames()) {
+      for (const can::Frame& frame : bus.sent()) {
         hash_frame(hash, frame);
         decisions += static_cast<std::int64_t>(can::is<can::Decision>(frame));
       }

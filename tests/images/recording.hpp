@@ -8,7 +8,9 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware/core/sync_clock.hpp"
+#include <algorithm>
+
+#include "firmware/can/frame.hpp"
 #include "tests/images/console.hpp"
 
 namespace striker::images {

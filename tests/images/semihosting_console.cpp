@@ -1,6 +1,5 @@
 #include "tests/images/console.hpp"
 
-#include <array>
 #include <cstring>
 
 namespace striker::images::console {
@@ -29,70 +28,23 @@ std::int32_t call(Operation operation, const void* parameter) {
   return static_cast<std::int32_t>(r0);
 }
 
-using Line = std::array<char, 256>;
-
-// The host's command line, with a terminator after every word.
-Line& command_line() {
-  static Line line;
-  struct {
-    char* text;
-    std::uint32_t length;
-  } const block{line.data(), line.size() - 2};
-  if (line[0] == '\0' && call(Operation::get_command_line, &block) == 0) {
-    for (char& letter : line) {
-      letter = letter == ' ' ? '\0' : letter;
-    }
-  }
-  return line;
-}
-
 }  // namespace
 
 void print(const char* text) {
   call(Operation::write0, text);
 }
 
-void print(std::int64_t number) {
-  std::array<char, 24> digits{};
-  std::size_t at = digits.size() - 1;
-  auto rest = static_cast<std::uint64_t>(number < 0 ? -number : number);
-  do {
-    digits[--at] = static_cast<char>('0' + rest % 10);
-    rest /= 10;
-  } while (rest != 0);
-  if (number < 0) {
-    digits[--at] = '-';
+void read_command_line(std::span<char> line) {
+  struct {
+    char* text;
+    std::uint32_t length;
+  } const block{line.data(), line.size()};
+  if (call(Operation::get_command_line, &block) != 0) {
+    return;
   }
-  print(digits.data() + at);
-}
-
-void print_line(const char* name, std::int64_t number) {
-  print(name);
-  print(" ");
-  print(number);
-  print("\n");
-}
-
-const char* word_argument(const char* name) {
-  const Line& line = command_line();
-  for (const char* word = line.data(); *word != '\0'; word += std::strlen(word) + 1) {
-    if (std::strcmp(word, name) == 0) {
-      return word + std::strlen(word) + 1;
-    }
+  for (char& letter : line) {
+    letter = letter == ' ' ? '\0' : letter;
   }
-  return nullptr;
-}
-
-std::uint32_t argument(const char* name, std::uint32_t otherwise) {
-  const char* digit = word_argument(name);
-  if (digit == nullptr) {
-    return otherwise;
-  }
-  std::uint32_t number = 0;
-  for (; *digit >= '0' && *digit <= '9'; ++digit) {
-    number = number * 10 + static_cast<std::uint32_t>(*digit - '0');
-  }
-  return number;
 }
 
 File::File(const char* name) {

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "firmware/core/controller.hpp"
+#include "firmware/loop/built_in_node.hpp"
 #include "tests/images/instruction_counter.hpp"
 #include "tests/policy/synthetic_policy.hpp"
 
@@ -13,9 +13,9 @@ namespace {
 
 using policy::SmallRandom;
 
-// A controller and everything that sends to it.
+// A node and everything that sends to it.
 struct Scene {
-  core::Controller controller;
+  loop::BuiltInNode node{loop::built_in_robot};
   std::uint32_t tick = 0;
   std::int32_t picture = 0;
   can::SendCounter wheels, pose, ball, mode, stop;
@@ -62,7 +62,7 @@ void add_picture(Scene& scene, SmallRandom& random, Frames& frames) {
 
 void add_mode(Scene& scene, SmallRandom& random, Frames& frames) {
   can::Mode mode = one_in(random, 8) ? can::Mode::disarm : can::Mode::clear;
-  if (scene.controller.state() == can::State::standby) {
+  if (scene.node.controller().state() == core::State::standby) {
     mode = can::Mode::arm;
   }
   frames.add(can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, scene.mode));
@@ -99,9 +99,9 @@ Frames frames_of(Scene& scene, SmallRandom& random) {
       add_picture(scene, random, frames);
     }
   }
-  const bool wants_mode = scene.controller.state() == can::State::standby
+  const bool wants_mode = scene.node.controller().state() == core::State::standby
                               ? scene.tick % 50 == 1
-                              : scene.controller.state() == can::State::fault;
+                              : scene.node.controller().state() == core::State::fault;
   if (wants_mode || one_in(random, 2048)) {
     add_mode(scene, random, frames);
   }
@@ -135,22 +135,22 @@ SearchResult search_longest_step(std::uint32_t steps, std::uint32_t seed) {
   Scene scene;
   Scene longest = scene;
   std::uint32_t longest_counts = 0;
-  core::Outputs outputs;
+  can::FrameList sent;
   for (std::uint32_t i = 0; i < steps; ++i) {
     if (one_in(random, 2000)) {
       scene = one_in(random, 2) ? longest : Scene{};
     }
     const Scene before = scene;
     const Frames frames = frames_of(scene, random);
-    const core::Inputs inputs{.tick = scene.tick, .frames = std::span(frames.all).first(frames.count)};
+    const loop::Tick tick{.number = scene.tick, .frames = std::span(frames.all).first(frames.count)};
     restart_counter();
-    scene.controller.step(inputs, outputs);
+    scene.node.step(tick, sent);
     const std::uint32_t counts = counted() + 1;
     if (counts >= longest_counts) {
       longest_counts = counts;
       longest = before;
     }
-    for (const can::Frame& frame : outputs.frames()) {
+    for (const can::Frame& frame : sent.frames()) {
       result.decisions += static_cast<std::uint32_t>(can::is<can::Decision>(frame));
     }
     let_time_pass(scene, random);

@@ -1,6 +1,6 @@
 // SysTick (Armv6-M and later Architecture Reference Manuals, "System timer"): 24 bits, counting down with the
 // processor's clock, which STRIKER_CLOCK_HZ says for the board.
-#include "firmware/ports/cortex_m/systick.hpp"
+#include "firmware/ports/bare_metal/cortex_m/systick.hpp"
 #include "tests/images/instruction_counter.hpp"
 
 namespace striker::images {

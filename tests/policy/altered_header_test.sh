@@ -13,7 +13,7 @@ policy_name() { sed -nE 's/^inline constexpr Policy<[^>]*> ([a-z_0-9]+) = .*/\1/
 
 compile() {
   g++ -std=c++20 -fsyntax-only -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$1\"" "-DSTRIKER_POLICY_NAME=$(policy_name "$1")" \
-    "$source_dir/firmware/core/controller.cpp" 2>&1
+    "$source_dir/firmware/loop/built_in_node.cpp" 2>&1
 }
 
 # expect_refusal NAME SED_SCRIPT MESSAGE

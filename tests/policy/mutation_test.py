@@ -12,7 +12,8 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 POLICY = "firmware/policy/exported/kick.hpp"
-CONTROLLER = "firmware/core/controller.cpp"
+PILOT = "firmware/core/pilot.hpp"
+NODE = "firmware/loop/built_in_node.cpp"  # what instantiates the pilot of the built-in policy
 ARGMAX = "firmware/policy/kernel/argmax.hpp"
 BRANCH_FREE = "firmware/policy/kernel/branch_free.hpp"
 
@@ -34,7 +35,7 @@ def altered_headers(copy, _):
 
 def compiles(copy, _):
     return shell("g++", "-std=c++20", "-fsyntax-only", f"-I{copy}", f'-DSTRIKER_POLICY_HEADER="{copy}/{POLICY}"', "-DSTRIKER_POLICY_NAME=kick",
-                 f"{copy}/{CONTROLLER}")
+                 f"{copy}/{NODE}")
 
 
 def host_instructions(copy, _):
@@ -44,19 +45,20 @@ def host_instructions(copy, _):
     return built if built.returncode != 0 else shell(f"{copy}/tests/policy/kernel_instructions_test.sh", probe)
 
 
-def image(cpu):
+def image(board):
     def test(copy, arguments):
-        return shell(f"{copy}/tests/ports/image_test.py", "--cpu", cpu, "--policy", f"{copy}/{POLICY}", "--host",
-                     arguments.host, "--recording", arguments.recording, "--build-dir", f"{copy}/build-{cpu}",
+        return shell(f"{copy}/tests/ports/image_test.py", "--board", board, "--boards",
+                     arguments.boards, "--policy", f"{copy}/{POLICY}", "--host",
+                     arguments.host, "--recording", arguments.recording, "--build-dir", f"{copy}/build-{board}",
                      "--search", "2000")
     return test
 
 
 # What is broken, where, what is replaced by what (regular expression), and the test that has to notice.
 MUTATIONS = (
-    ("the overflow proof is not asserted", CONTROLLER, r"static_assert\(sums_fit\(policy\)", "static_assert(true",
+    ("the overflow proof is not asserted", PILOT, r"static_assert\(policy::sums_fit\(\w+\)", "static_assert(true",
      altered_headers),
-    ("the identity is not asserted", CONTROLLER, r"static_assert\(identity_of\(policy\) == policy.identity",
+    ("the identity is not asserted", PILOT, r"static_assert\(policy::identity_of\(\w+\) == \w+\.identity",
      "static_assert(true", altered_headers),
     ("a golden vector is gone", POLICY, r"(, )16(> kick)([\s\S]*)\n +\{\.raw = [\s\S]*?\},\n(    \}\},\n\};)",
      r"\g<1>15\2\3\n\4", compiles),
@@ -64,12 +66,12 @@ MUTATIONS = (
      'const std::int32_t greater = less_mask(best, sums[k]);\n    if (greater != 0) {\n      asm volatile("nop");\n    }',
      host_instructions),
     ("ReLU branches on the Cortex-M0+", BRANCH_FREE, r"constexpr std::int32_t saturate_relu\([\s\S]*?\n\}", BRANCHING_RELU,
-     image("cortex-m0plus")),
+     image("microbit")),
     ("two weights change places on the Cortex-M4", "firmware/policy/kernel/int16/armv7em.hpp",
      r"half_words\(weight_or_zero\(layer, row, 2 \* p \+ 1\), layer\.weights\[row\]\[2 \* p\]\)",
-     "half_words(layer.weights[row][2 * p], weight_or_zero(layer, row, 2 * p + 1))", image("cortex-m4")),
+     "half_words(layer.weights[row][2 * p], weight_or_zero(layer, row, 2 * p + 1))", image("mps2-an386")),
     ("two rows of int8 weights change places on the Cortex-M4", "firmware/policy/kernel/int8/armv7em.hpp",
-     r"byte\(0, 0\) \| byte\(1, 0\)", "byte(1, 0) | byte(0, 0)", image("cortex-m4")),
+     r"byte\(0, 0\) \| byte\(1, 0\)", "byte(1, 0) | byte(0, 0)", image("mps2-an386")),
 )
 
 
@@ -83,6 +85,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--host", required=True, help="the check program, built for the host")
     parser.add_argument("--recording", required=True)
+    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
     arguments = parser.parse_args()
     good = True
     with tempfile.TemporaryDirectory() as copy:

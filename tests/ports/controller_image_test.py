@@ -1,5 +1,5 @@
-#!/usr/bin/env python3
-"""Runs the Cortex-M4F's controller image, as it would be flashed, on QEMU: slcan over the board's serial port, the
+#!/usr/bin/python3
+"""Runs a board's controller image, as it would be flashed, on QEMU: slcan over the board's serial port, the
 recorded run's frames as its bus, tick by tick. It has to arm and decide, and its stack, painted at reset, must not
 have been deeper than the computed bound."""
 
@@ -15,14 +15,14 @@ import time
 import qemu_image
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "firmware", "ports", "bare_metal"))
+sys.path[:0] = [os.path.join(ROOT, "tests", "can"), os.path.join(ROOT, "firmware", "ports", "bare_metal")]
 
 import stack_usage  # noqa: E402
+import striker_dbc  # noqa: E402
 
 PAINT = 0xC5C5C5C5
-SYNC, WHEEL_COMMAND, STATUS, DECISION = 0x030, 0x050, 0x100, 0x110
+SYNC, WHEEL_COMMAND, STATUS, DECISION = map(striker_dbc.identifier, ("Sync", "WheelCommand", "Status", "Decision"))
 FROM_CONTROLLER = 0x8000
-ACTIVE = 3
 
 
 def recorded_ticks(path):
@@ -88,13 +88,12 @@ def deepest_stack(control, bottom, top, folder):
     return top - bottom - 4 * untouched
 
 
-def run(image, ticks, symbols):
+def run(board, image, ticks, symbols):
     """What the image answered, and how deep its stack was."""
     with tempfile.TemporaryDirectory() as folder:
         serial_path, control_path = os.path.join(folder, "serial"), os.path.join(folder, "control")
-        line = ["qemu-system-arm", "-M", qemu_image.BOARDS["cortex-m4"][1], "-kernel", image, "-display", "none",
-                "-monitor", "none", "-icount", "shift=0", "-serial", f"unix:{serial_path},server=on,wait=on",
-                "-qmp", f"unix:{control_path},server=on,wait=off"]
+        line = qemu_image.machine(board, image) + ["-serial", f"unix:{serial_path},server=on,wait=on",
+                                                   "-qmp", f"unix:{control_path},server=on,wait=off"]
         with subprocess.Popen(line, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
             try:
                 answers = exchange(connect(serial_path), ticks)
@@ -107,22 +106,28 @@ def run(image, ticks, symbols):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--recording", required=True)
-    parser.add_argument("--build-dir", required=True, help="the Cortex-M4F's, built")
+    parser.add_argument("--board", required=True)
+    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser.add_argument("--build-dir", required=True, help="the board's, built")
     arguments = parser.parse_args()
+    try:
+        board = qemu_image.read_board(arguments.boards, arguments.board)
+    except qemu_image.ImageError as error:
+        sys.exit(f"controller_image_test: {error}")
     image = os.path.join(arguments.build_dir, "bin", "striker-controller.elf")
     bound, _ = stack_usage.stack_usage(image, arguments.build_dir)
     symbols = stack_usage.symbols(image)
     # An instruction a nanosecond makes the board's 1 ms some of the host's. A host that stalls this process for 20 of
     # them takes the wheel states away, and the controller rightly faults: then once more.
     for _ in range(3):
-        answers, deepest = run(image, recorded_ticks(arguments.recording)[:600], symbols)
-        states = {status[1] >> 4 for status in answers.get(STATUS, [])}
+        answers, deepest = run(board, image, recorded_ticks(arguments.recording)[:600], symbols)
+        states = {striker_dbc.named("Status", "state", status) for status in answers.get(STATUS, [])}
         decisions = len(answers.get(DECISION, []))
         print(f"{len(answers[WHEEL_COMMAND])} wheel commands, {decisions} decisions, states {sorted(states)}; "
               f"stack {deepest} bytes deep, bound {bound} bytes")
         if not 0 < deepest <= bound:
             sys.exit(1)
-        if ACTIVE in states and decisions > 4:
+        if "active" in states and decisions > 4:
             sys.exit(0)
     sys.exit(1)
 

@@ -72,11 +72,11 @@ def cycles_of(cpu, mnemonic, operands, taken, after_access):
     return 1
 
 
-def trace(cpu, image, start, size, words):
+def trace(board, image, start, size, words):
     """The blocks that ran within the address range, as lists of instruction addresses, in their order."""
     with tempfile.TemporaryDirectory() as folder:
         log = os.path.join(folder, "trace.log")
-        line = qemu_image.command(cpu, image, [os.path.basename(image)] + [str(word) for word in words])
+        line = qemu_image.command(board, image, [os.path.basename(image)] + [str(word) for word in words])
         at = line.index("-icount")
         del line[at:at + 2]  # blocks run whole
         line += ["-d", "in_asm,exec,nochain", "-dfilter", f"{start:#x}+{size:#x}", "-D", log]
@@ -95,12 +95,12 @@ def trace(cpu, image, start, size, words):
     return [blocks[pc] for pc in order]
 
 
-def model(cpu, image, pattern, words):
+def model(board, image, pattern, words):
     """(instructions, cycles) of one call of the function that matches, without what it calls."""
     start, size = symbol(image, pattern)
     listing = disassemble(image, start, size)
     instructions = cycles = calls = 0
-    blocks = trace(cpu, image, start, size, words)
+    blocks = trace(board, image, start, size, words)
     after_access = False
     for block, following in zip(blocks, blocks[1:] + [None]):
         calls += block[0] == start
@@ -109,7 +109,7 @@ def model(cpu, image, pattern, words):
             last = address == block[-1]
             taken = last and (following is None or following[0] != address + 2 and following[0] != address + 4)
             instructions += 1
-            cycles += cycles_of(cpu, mnemonic, operands, taken or mnemonic == "bl", after_access)
+            cycles += cycles_of(board["cpu"], mnemonic, operands, taken or mnemonic == "bl", after_access)
             after_access = is_single_access(mnemonic)
     if calls == 0 or instructions % calls != 0 or cycles % calls != 0:
         raise qemu_image.ImageError(f"{image}: {calls} calls of {pattern} did not all run alike")

@@ -33,34 +33,36 @@ def export(tools, shape, directory):
     return header
 
 
-def measure(cpu, header, build_dir, inputs):
-    image_test.build(cpu, header, build_dir, ("striker-check", "striker-bench"))
+def measure(board, header, build_dir, inputs):
+    image_test.build(board, header, build_dir, ("striker-check", "striker-bench"))
     # Exit status 0 means that all golden vectors passed.
-    qemu_image.run(cpu, image_test.image(build_dir, "check"))
-    return qemu_image.numbers(qemu_image.run(cpu, image_test.image(build_dir, "bench"), ["inputs", inputs]))
+    qemu_image.run(board, image_test.image(build_dir, "check"))
+    return qemu_image.numbers(qemu_image.run(board, image_test.image(build_dir, "bench"), ["inputs", inputs]))
 
 
-def holds(cpu, shape, header, build_dir):
-    print(f"{cpu}, {shape}")
-    measured = measure(cpu, header, build_dir, 200)
+def holds(board, shape, header, build_dir):
+    print(f"{board['name']}, {shape}")
+    measured = measure(board, header, build_dir, 200)
     least, greatest = measured["inference min"], measured["inference max"]
-    limit = image_test.inference_limit(cpu, measured["multiply-accumulates"], header)[0]
+    limit = image_test.inference_limit(board, measured["multiply-accumulates"], header)[0]
     good = image_test.expect(least == greatest, f"{least} to {greatest} instructions, whatever the input")
     return image_test.expect(greatest <= limit, f"{greatest} instructions, of {limit}") and good
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cpu", action="append", choices=qemu_image.BOARDS, help="only this target; may be repeated")
+    parser.add_argument("--board", action="append", required=True, help="may be repeated")
+    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
     parser.add_argument("--tools", required=True, help="where striker-train and striker-export are")
     parser.add_argument("--build-dir", required=True)
     arguments = parser.parse_args()
     good = True
     try:
+        boards = [qemu_image.read_board(arguments.boards, name) for name in arguments.board]
         for shape in SHAPES:
             header = export(arguments.tools, shape, os.path.join(arguments.build_dir, "exported"))
-            for cpu in arguments.cpu or qemu_image.BOARDS:
-                good &= holds(cpu, shape, header, os.path.join(arguments.build_dir, shape, cpu))
+            for board in boards:
+                good &= holds(board, shape, header, os.path.join(arguments.build_dir, shape, board["name"]))
     except qemu_image.ImageError as error:
         sys.exit(f"exported_shapes_test: {error}")
     sys.exit(0 if good else 1)

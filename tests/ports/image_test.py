@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Builds the images for one processor and holds them, on its emulation, to the host's answers and to limits.json."""
+"""Builds the images for one board and holds them, on its emulation, to the host's answers and to limits.json."""
 
 import argparse
 import json
@@ -20,9 +20,9 @@ import stack_usage  # noqa: E402
 MULTIPLY_ACCUMULATES = 6 * 64 + 64 * 64 + 64 * 3
 
 
-def build(cpu, policy, build_dir, targets=("all",)):
+def build(board, policy, build_dir, targets=("all",)):
     for command in (
-        ["cmake", "-G", "Ninja", "-S", ROOT, "-B", build_dir, "-DCMAKE_BUILD_TYPE=Release", f"-DSTRIKER_CPU={cpu}",
+        ["cmake", "-G", "Ninja", "-S", ROOT, "-B", build_dir, "-DCMAKE_BUILD_TYPE=Release", f"-DSTRIKER_BOARD={board['name']}",
          f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/firmware/ports/arm-none-eabi.cmake", f"-DSTRIKER_POLICY={policy}"],
         ["cmake", "--build", build_dir, "--target", *targets],
     ):
@@ -35,10 +35,10 @@ def image(build_dir, name):
     return os.path.join(build_dir, "bin", f"striker-{name}.elf")
 
 
-def inference_limit(cpu, macs, policy):
-    """limits.json's, or in proportion for another network."""
+def inference_limit(board, macs, policy):
+    """limits.json's for the board's processor, or in proportion for another network."""
     with open(os.path.join(HERE, "limits.json"), encoding="utf-8") as text:
-        limits = json.load(text)[cpu]
+        limits = json.load(text)[board["cpu"]]
     with open(policy, encoding="utf-8") as text:
         int8 = ", std::int8_t> " in text.read()
     inference = limits["inference_int8" if int8 else "inference"]
@@ -59,7 +59,8 @@ def expect(holds, text):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cpu", required=True, choices=qemu_image.BOARDS)
+    parser.add_argument("--board", required=True)
+    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
     parser.add_argument("--policy", required=True)
     parser.add_argument("--host", required=True, help="the check program, built for the host")
     parser.add_argument("--recording", help="a run of the simulator with this policy")
@@ -67,21 +68,21 @@ def main():
     parser.add_argument("--inputs", type=int, default=200)
     parser.add_argument("--search", type=int, default=20000)
     arguments = parser.parse_args()
-    cpu = arguments.cpu
-    build(cpu, arguments.policy, arguments.build_dir)
     good = True
     try:
+        board = qemu_image.read_board(arguments.boards, arguments.board)
+        build(board, arguments.policy, arguments.build_dir)
         words = ["recording", arguments.recording] if arguments.recording else []
         host = subprocess.run([arguments.host] + words, capture_output=True, text=True, check=True).stdout
-        target = qemu_image.run(cpu, image(arguments.build_dir, "check"), words)
+        target = qemu_image.run(board, image(arguments.build_dir, "check"), words)
         print(target, end="")
         good &= expect(target == host, "the same answers as on the host, to the letter")
 
         measured = qemu_image.numbers(qemu_image.run(
-            cpu, image(arguments.build_dir, "bench"),
+            board, image(arguments.build_dir, "bench"),
             ["inputs", arguments.inputs, "search", arguments.search, "seed", 2]))
         least, greatest = measured["inference min"], measured["inference max"]
-        limit, step_limit = inference_limit(cpu, measured["multiply-accumulates"], arguments.policy)
+        limit, step_limit = inference_limit(board, measured["multiply-accumulates"], arguments.policy)
         good &= expect(least == greatest, f"{least} to {greatest} instructions an inference, whatever the input")
         good &= expect(greatest <= limit, f"{greatest} instructions an inference, of {limit}")
         longest = measured["search max"]

@@ -8,20 +8,25 @@ import subprocess
 import tempfile
 import time
 
-# What a processor is called, and the machine that has one.
-BOARDS = {
-    "cortex-m0plus": ("Cortex-M0+", "microbit"),
-    "cortex-m3": ("Cortex-M3", "mps2-an385"),
-    "cortex-m4": ("Cortex-M4F", "mps2-an386"),
-    "cortex-m7": ("Cortex-M7", "mps2-an500"),
-    "cortex-m33": ("Cortex-M33", "mps2-an505"),
-    "cortex-m55": ("Cortex-M55", "mps3-an547"),
-    "cortex-r5": ("Cortex-R5F", "xlnx-zcu102"),
-}
-
 
 class ImageError(Exception):
     """The image could not run, or ended with a status other than 0."""
+
+
+def read_boards(path):
+    """The boards that QEMU emulates, by name, of the boards.json that a host's build writes."""
+    try:
+        with open(path, encoding="utf-8") as text:
+            return {board["name"]: board for board in json.load(text) if board["qemu"]}
+    except FileNotFoundError:
+        raise ImageError(f"no {path}: cmake --preset release writes it") from None
+
+
+def read_board(path, name):
+    boards = read_boards(path)
+    if name not in boards:
+        raise ImageError(f"--board: '{name}' is none of {path}: {', '.join(boards)}")
+    return boards[name]
 
 
 def _semihosting(words):
@@ -29,20 +34,20 @@ def _semihosting(words):
             ",".join(["enable=on", "target=native", "chardev=console"] + [f"arg={word}" for word in words])]
 
 
-def command(cpu, image, words):
-    """QEMU's command line, but for what the Cortex-R5F's start needs beside it."""
-    machine = BOARDS[cpu][1]
-    quiet = ["-display", "none", "-monitor", "none", "-serial", "none", "-icount", "shift=0"]
-    if cpu == "cortex-r5":
-        return [
-            "qemu-system-aarch64", "-M", machine, "-smp", "5", "-m", "128M", "-audiodev", "none,id=a", "-S",
-            "-global", "xlnx-zynqmp.boot-cpu=rpu-cpu[0]", "-device", f"loader,file={image},cpu-num=4",
-        ] + quiet + _semihosting(words)
-    return ["qemu-system-arm", "-M", machine, "-kernel", image] + quiet + _semihosting(words)
+def machine(board, image):
+    """QEMU's command line for the board with the image in its memory, but without anything to say it with."""
+    qemu = board["qemu"]
+    start = [word.replace("{image}", image) for word in qemu["arguments"]]
+    return [qemu["system"], "-M", qemu["machine"], *start, "-display", "none", "-monitor", "none", "-icount", "shift=0"]
 
 
-def _start_r5(path, process):
-    """QEMU 7.2 leaves the R5 switched off: asked over QMP, it starts at the image's entry."""
+def command(board, image, words):
+    """QEMU's command line, but for what a processor that has to be switched on needs beside it."""
+    return machine(board, image) + ["-serial", "none"] + _semihosting(words)
+
+
+def _switch_on(processor, path, process):
+    """QEMU leaves the processor off: asked over QMP, it starts at the image's entry."""
     connection = socket.socket(socket.AF_UNIX)
     for _ in range(200):
         if process.poll() is not None:
@@ -58,8 +63,7 @@ def _start_r5(path, process):
     stream.readline()
     for request in (
         {"execute": "qmp_capabilities"},
-        {"execute": "qom-set", "arguments": {"path": "/machine/soc/rpu-cluster/rpu-cpu[0]",
-                                             "property": "start-powered-off", "value": False}},
+        {"execute": "qom-set", "arguments": {"path": processor, "property": "start-powered-off", "value": False}},
         {"execute": "system_reset"},
         {"execute": "cont"},
     ):
@@ -72,33 +76,34 @@ def _start_r5(path, process):
     return connection
 
 
-def run(cpu, image, words=(), timeout_s=600):
+def run(board, image, words=(), timeout_s=600):
     """The image's output, once it has ended with status 0."""
-    line = command(cpu, image, [os.path.basename(image)] + [str(word) for word in words])
+    name, power_on = board["name"], board["qemu"]["power_on"]
+    line = command(board, image, [os.path.basename(image)] + [str(word) for word in words])
     if shutil.which(line[0]) is None:
         raise ImageError(f"no {line[0]}: tools/setup installs it (Debian: qemu-system-arm)")
     if not os.path.exists(image):
-        raise ImageError(f"no image {image}: cmake --preset {cpu} && cmake --build --preset {cpu}")
+        raise ImageError(f"no image {image}: cmake --preset {name} && cmake --build --preset {name}")
     with tempfile.TemporaryDirectory() as folder:
         control = os.path.join(folder, "qmp.sock")
-        if cpu == "cortex-r5":
+        if power_on:
             line += ["-qmp", f"unix:{control},server=on,wait=off"]
         with subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               text=True) as process:
             connection = None
             try:
-                if cpu == "cortex-r5":
-                    connection = _start_r5(control, process)
+                if power_on:
+                    connection = _switch_on(power_on, control, process)
                 output, complaints = process.communicate(timeout=timeout_s)
             except subprocess.TimeoutExpired as expired:
-                raise ImageError(f"{cpu}: no end within {timeout_s} s") from expired
+                raise ImageError(f"{name}: no end within {timeout_s} s") from expired
             finally:
                 if process.poll() is None:
                     process.kill()
                 if connection is not None:
                     connection.close()
     if process.returncode != 0:
-        raise ImageError(f"{cpu}: {os.path.basename(image)} ended with status {process.returncode}:\n{output}{complaints}")
+        raise ImageError(f"{name}: {os.path.basename(image)} ended with status {process.returncode}:\n{output}{complaints}")
     return output
 
 

@@ -1,14 +1,19 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Makes the recording that the images replay (tests/images/recording.hpp) of a simulator's candump log."""
 
 import argparse
+import os
 import re
 import struct
 import sys
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "can"))
+
+import striker_dbc  # noqa: E402
+
 LINE = re.compile(r"\([\d.]+\) \S+ ([0-9A-F]{3})#([0-9A-F]*)$")
-SYNC = 0x030
-CONTROLLER_SENDS = {0x020, 0x050, 0x100, 0x110, 0x120, 0x700, 0x710}
+SYNC = striker_dbc.identifier("Sync")
+CONTROLLER_SENDS = striker_dbc.sent_by("Controller")
 FROM_CONTROLLER = 0x8000
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""striker-sil's files and errors, without a bus. Usage: command_line_test.py BIN_DIRECTORY"""
+"""striker-sil's files and errors, without a bus. Usage: sil_command_line_test.py BIN_DIRECTORY"""
 
 import json
 import os

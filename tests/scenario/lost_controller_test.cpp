@@ -4,64 +4,53 @@
 #include <vector>
 
 #include "sil/bus/in_process_link.hpp"
-#include "sil/scenario/kick_run.hpp"
+#include "sil/fault/faulty_link.hpp"
+#include "tests/scenario/kick_rig.hpp"
 
 namespace striker::sil {
 namespace {
 
-// A controller that dies at one tick and is booted anew at another.
-class MortalLink final : public ControllerLink {
- public:
-  MortalLink(std::uint32_t death, std::uint32_t rebirth) : death_(death), rebirth_(rebirth) {}
-
-  void exchange(std::uint32_t tick, std::span<const can::Frame> sent,
-                std::vector<can::Frame>& answer) override {
-    if (tick == rebirth_) {
-      link_ = {};
-    }
-    if (tick < death_ || tick >= rebirth_) {
-      link_.exchange(tick, sent, answer);
-    }
-  }
-  [[nodiscard]] can::State state() const { return link_.controller().state(); }
-
- private:
-  std::uint32_t death_;
-  std::uint32_t rebirth_;
-  InProcessLink link_;
-};
-
 constexpr std::uint32_t first_decision = 150;  // 50 ticks of boot, then two pictures
-constexpr std::uint32_t death = first_decision + 700;
-constexpr std::uint32_t rebirth = death + 300;
+constexpr std::uint32_t second_episode = 50 + 2200;
+constexpr std::uint32_t lost = first_decision + 700;
+constexpr std::uint32_t back = lost + 300;
 
 TEST(LostController, TheDrivesCutWithinTenMillisecondsAndOnlyAnArmBringsTorqueBack) {
-  MortalLink link(death, rebirth);
+  InProcessLink controller;
+  FaultyLink link(controller, {{.from = lost, .until = back}}, [&] { controller = {}; });
+  KickRig rig(link);
   std::vector<bool> cut;
   std::vector<can::State> states;
-  KickRunner* observed = nullptr;
-  KickRunner runner({.plant = PlantKind::drive, .episodes = 2}, link,
-                    {.begin_tick = {},
-                     .end_tick =
-                         [&](const TickRecord& record) {
-                           cut.push_back(observed->drives().cut(record.tick));
-                           states.push_back(link.state());
-                         },
-                     .end_episode = {},
-                     .stop = {}});
-  observed = &runner;
-  runner.run();
-  EXPECT_FALSE(cut[death - 1]);
-  EXPECT_TRUE(cut[death + 9]);
-  for (std::uint32_t tick = death + 9; tick < rebirth; ++tick) {
-    ASSERT_TRUE(cut[tick]);
+  AtEndOfTick watch([&](const Snapshot& snapshot) {
+    cut.push_back(rig.drives.cut(snapshot.tick));
+    states.push_back(controller.controller().state());
+  });
+  EXPECT_EQ(rig.play({.episodes = 2}, {&watch}).size(), 2U);
+  EXPECT_FALSE(cut[lost - 1]);
+  for (std::uint32_t tick = lost + 9; tick < back; ++tick) {
+    ASSERT_TRUE(cut[tick]) << tick;
   }
-  const std::uint32_t second_episode = 50 + 2200;
-  for (std::uint32_t tick = rebirth; tick < second_episode + 51; ++tick) {
+  for (std::uint32_t tick = back; tick < second_episode + 51; ++tick) {
     ASSERT_NE(states[tick], can::State::active) << tick;
   }
   EXPECT_EQ(states[second_episode + 60], can::State::active);
-  EXPECT_EQ(runner.outcomes().size(), 2U);
+}
+
+TEST(LostController, WithoutPicturesItFaultsAndTheNextEpisodeClearsAndArmsIt) {
+  InProcessLink controller;
+  FaultyLink link(
+      controller,
+      {{.from = lost, .until = second_episode, .lost_identifier = can::layout<can::VisionPose>.info.id}});
+  std::vector<can::Fault> faults;
+  std::vector<can::State> states;
+  AtEndOfTick watch([&](const Snapshot&) {
+    faults.push_back(controller.controller().fault());
+    states.push_back(controller.controller().state());
+  });
+  KickRig(link).play({.episodes = 2}, {&watch});
+  EXPECT_EQ(states[lost - 1], can::State::active);
+  EXPECT_EQ(faults[lost + 210], can::Fault::vision_lost);
+  EXPECT_EQ(states[second_episode + 60], can::State::active);
 }
 
 }  // namespace

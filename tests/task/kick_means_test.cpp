@@ -19,7 +19,7 @@ KickSummary mean_of(const char* name, const std::function<Actions(std::uint64_t)
   for (std::uint64_t i = 0; i < episodes; ++i) {
     outcomes.push_back(play(world, draw_kick(1, i, PoseMode::origin), actions(i)));
   }
-  const KickSummary summary = summarise(outcomes);
+  const KickSummary summary = kick_summary(outcomes);
   testing::Test::RecordProperty("policy", name);
   testing::Test::RecordProperty("mean_reward", std::to_string(summary.mean_reward));
   testing::Test::RecordProperty("contact_rate", std::to_string(summary.contact_rate));

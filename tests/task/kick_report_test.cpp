@@ -47,7 +47,7 @@ std::filesystem::path scratch(const char* name) {
 }
 
 TEST(KickReport, SummaryOfKnownRewards) {
-  const KickSummary summary = summarise({kick(), miss(), miss(), kick()});
+  const KickSummary summary = kick_summary({kick(), miss(), miss(), kick()});
   EXPECT_NEAR(summary.mean_reward, 3.8, 1e-12);
   EXPECT_NEAR(summary.contact_rate, 0.5, 1e-12);
   EXPECT_NEAR(summary.kick_rate, 0.5, 1e-12);
@@ -56,8 +56,8 @@ TEST(KickReport, SummaryOfKnownRewards) {
 }
 
 TEST(KickReport, SummaryOfOneAndOfNone) {
-  EXPECT_EQ(summarise({kick()}).reward_ci95, 0.0);
-  EXPECT_EQ(summarise({}).mean_reward, 0.0);
+  EXPECT_EQ(kick_summary({kick()}).reward_ci95, 0.0);
+  EXPECT_EQ(kick_summary({}).mean_reward, 0.0);
 }
 
 TEST(KickReport, JsonHoldsEverything) {

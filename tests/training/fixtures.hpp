@@ -68,7 +68,7 @@ inline Config short_config(int episodes) {
   config.run.episodes = episodes;
   config.run.validation_episodes = 0;
   config.learner.double_dqn = true;
-  config.learner.mirror = true;
+  config.learner.augment_mirrored = true;
   config.learner.n_step = 5;
   config.learner.warm_up = 200;
   config.learner.replay_size = 1000;

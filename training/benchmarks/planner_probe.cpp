@@ -6,13 +6,13 @@
 
 using namespace striker::training;
 
-extern "C" [[gnu::noinline]] int counted_plan(const KickEnv& env) {
+extern "C" [[gnu::noinline]] int counted_plan(const KickEnvironment& env) {
   return plan_ahead(env);
 }
 
 int main() {
   constexpr std::uint64_t seed = 1000;
-  KickEnv env({});
+  KickEnvironment env({});
   long decisions = 0;
   for (std::uint64_t episode = 0; episode < 100; ++episode) {
     env.reset(seed, episode);

@@ -10,8 +10,8 @@ namespace striker::training {
 namespace {
 
 // Random play up to the contact, as a learner meets it, observation included.
-void decisions(benchmark::State& state, World world) {
-  KickEnv env({.world = world});
+void decisions(benchmark::State& state, Physics physics) {
+  KickEnvironment env({.physics = physics});
   sil::Random random(1, 0, 0);
   std::uint64_t episode = 0;
   bool end = true;
@@ -25,16 +25,16 @@ void decisions(benchmark::State& state, World world) {
 }
 
 void fast_world(benchmark::State& state) {
-  decisions(state, World::fast);
+  decisions(state, Physics::planar);
 }
 void full_world(benchmark::State& state) {
-  decisions(state, World::full);
+  decisions(state, Physics::full);
 }
 
 // The paper's step: 6-64-64-3, batch 64, Adam, target network, samples drawn from a full replay buffer.
 void gradient_step(benchmark::State& state) {
   const Config config = parse_config("", "paper.toml");
-  Learner learner(config, 1);
+  Learner learner(setup_of(config), 1);
   sil::Random random(1, 0, 0);
   Features from(config.shape.inputs);
   Features to(config.shape.inputs);

@@ -9,8 +9,8 @@ namespace {
 
 // What comes of these actions from the start on.
 template <typename ActionOf>
-Found played(const BallTrack& track, const ActionOf& action_of) {
-  Found found;
+FoundSequence played(const BallTrack& track, const ActionOf& action_of) {
+  FoundSequence found;
   LineState robot;
   for (int step = 0; step < task_steps; ++step) {
     const int decision = step / steps_per_decision;
@@ -29,12 +29,12 @@ Found played(const BallTrack& track, const ActionOf& action_of) {
 
 // What the search has to beat: the better, the more branches it cuts. Without any contact the ball must be
 // let by: one of the three actions alone does that.
-Found first_guess(const BallTrack& track, double margin_m) {
+FoundSequence first_guess(const BallTrack& track, double margin_m) {
   const PlanValue value = best_plan(track, {}, sil::kick_decisions, margin_m);
   if (value.contact && value.reward > no_contact_reward) {
     return played(track, [&](int decision) { return value.plan.action(decision); });
   }
-  Found found;
+  FoundSequence found;
   for (const int action : {1, 0, 2}) {
     found = played(track, [&](int) { return action; });
     if (found.contact_step < 0) {
@@ -91,7 +91,7 @@ void CeilingSearch::begin(int decision) {
   }
 }
 
-void CeilingSearch::record(Found& found, Contact& contact, double reward, int step,
+void CeilingSearch::record(FoundSequence& found, Contact& contact, double reward, int step,
                            const Contact& here) const {
   if (reward > found.reward) {
     found.reward = reward;
@@ -144,7 +144,7 @@ void CeilingSearch::expand(int decision) {
   }
 }
 
-void CeilingSearch::trace(Found& found, const Contact& contact) const {
+void CeilingSearch::trace(FoundSequence& found, const Contact& contact) const {
   if (contact.level < 0) {
     return;
   }

@@ -18,12 +18,12 @@
 
 namespace striker::training {
 
-using Actions = std::array<std::uint8_t, sil::kick_decisions>;
+using ActionSequence = std::array<std::uint8_t, sil::kick_decisions>;
 
-struct Found {
+struct FoundSequence {
   double reward = no_contact_reward;
-  int contact_step = -1;  // the physics step whose collision test finds it; -1: no contact
-  Actions actions{};      // after the contact, that of the contact's decision goes on
+  int contact_step = -1;     // the physics step whose collision test finds it; -1: no contact
+  ActionSequence actions{};  // after the contact, that of the contact's decision goes on
 };
 
 // The full wheel bodies are up to 0.2 mm elsewhere than the search expects them, which decides where a
@@ -31,8 +31,8 @@ struct Found {
 inline constexpr double safe_margin_m = 0.0003;
 
 struct Ceiling {
-  Found best;
-  Found safe;
+  FoundSequence best;
+  FoundSequence safe;
 };
 
 // One thread uses one search; many may share the reachable states.
@@ -55,7 +55,8 @@ class CeilingSearch {
     std::uint32_t branch = 0;
     std::uint8_t action = 0;
   };
-  // What a state must have before a decision to be of use.
+  // Where a robot must be before a decision, and how fast, for a contact that is worth it: any state that does not
+  // meet these needs is dropped.
   struct Needs {
     double low_m = 0.0;
     double high_m = 0.0;
@@ -69,8 +70,8 @@ class CeilingSearch {
   void begin(int decision);
   void expand(int decision);
   void grow(int decision, std::uint32_t branch, std::uint8_t action, const Needs& next);
-  void record(Found& found, Contact& contact, double reward, int step, const Contact& here) const;
-  void trace(Found& found, const Contact& contact) const;
+  void record(FoundSequence& found, Contact& contact, double reward, int step, const Contact& here) const;
+  void trace(FoundSequence& found, const Contact& contact) const;
 
   const Reachable* reachable_;
   CellTable cells_;

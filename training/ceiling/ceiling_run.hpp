@@ -1,14 +1,12 @@
-// The ceiling and its rivals over the episodes of a seed, and what is reported of them. Results depend on the
-// options alone, never on the number of jobs.
+// The ceiling and its rivals over the episodes of a seed. Results depend on the options alone, never on the number of
+// jobs.
 #pragma once
 
-#include <atomic>
-#include <filesystem>
+#include <array>
+#include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
-#include "sil/task/kick_report.hpp"
 #include "training/ceiling/ceiling.hpp"
 #include "training/ceiling/rivals.hpp"
 
@@ -18,7 +16,7 @@ struct CeilingOptions {
   std::uint64_t seed = 0;
   int episodes = 0;  // numbers 0 and up, as in striker-evaluate and striker-sil
   sil::PoseMode pose = sil::PoseMode::origin;
-  World replay = World::fast;  // where the found actions, and the rivals, are played
+  Physics replay = Physics::planar;  // where the found actions, and the rivals, are played
   bool rivals = false;
   int jobs = 1;
   LineGrid grid = {};
@@ -36,13 +34,5 @@ struct CeilingEpisode {
 [[nodiscard]] std::vector<CeilingEpisode> run_ceiling(const CeilingOptions& options,
                                                       const Reachable& reachable,
                                                       const std::function<bool(int done)>& progress);
-
-[[nodiscard]] std::string ceiling_table(const CeilingOptions& options,
-                                        const std::vector<CeilingEpisode>& episodes);
-[[nodiscard]] std::string ceiling_json(const CeilingOptions& options,
-                                       const std::vector<CeilingEpisode>& episodes);
-// A row an episode, with the found actions as letters: forward, stop, backward.
-[[nodiscard]] std::string ceiling_csv(const CeilingOptions& options,
-                                      const std::vector<CeilingEpisode>& episodes);
 
 }  // namespace striker::training

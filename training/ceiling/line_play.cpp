@@ -17,30 +17,31 @@ double reach_m(double ball_y_m) {
   return left < 0.0 ? -1.0 : half_side_m + std::sqrt(left);
 }
 
-enum class Way { on, contact, spoiled };
+// How a decision of a plan ends. `spoiled`: the contact, or a near miss, is within the margin.
+enum class PlanEnding { none, contact, spoiled };
 
-// Where a plan has come to.
-struct Walk {
+// Where a plan that is carried out has come to.
+struct PlanProgress {
   LineState robot;
   int step = 0;
   double reward = 0.0;
 };
 
-// One decision on. `spoiled`: the contact, or a near miss, is within the margin.
-Way drive(Walk& walk, const BallTrack& track, int action, double margin_m) {
+// Carries out one decision.
+PlanEnding drive(PlanProgress& progress, const BallTrack& track, int action, double margin_m) {
   const double set_point = line_set_points_m_s.at(static_cast<std::size_t>(action));
-  for (int i = 0; i < steps_per_decision; ++i, ++walk.step) {
-    const double depth = track.depth_m(walk.step, walk.robot.position_m);
+  for (int i = 0; i < steps_per_decision; ++i, ++progress.step) {
+    const double depth = track.depth_m(progress.step, progress.robot.position_m);
     if (depth >= 0.0) {
-      walk.reward = contact_reward(track, walk.step, walk.robot);
-      return depth < margin_m ? Way::spoiled : Way::contact;
+      progress.reward = contact_reward(track, progress.step, progress.robot);
+      return depth < margin_m ? PlanEnding::spoiled : PlanEnding::contact;
     }
     if (depth > -margin_m) {
-      return Way::spoiled;
+      return PlanEnding::spoiled;
     }
-    advance(walk.robot, set_point);
+    advance(progress.robot, set_point);
   }
-  return Way::on;
+  return PlanEnding::none;
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ BallTrack ball_track(const sil::BallState& ball, int steps) {
       track.end = i + 1;
     }
     position = {position.x + physics_step_s * velocity.x, position.y + physics_step_s * velocity.y};
-    velocity = {kept_in_physics_step * velocity.x, kept_in_physics_step * velocity.y};
+    velocity = {sil::kept_in_10_ms * velocity.x, sil::kept_in_10_ms * velocity.y};
   }
   track.first = std::min(track.first, track.end);
   return track;
@@ -78,21 +79,22 @@ PlanValue best_plan(const BallTrack& track, const LineState& robot, int decision
   PlanValue best;
   // Later decisions change nothing: the ball has left the line's neighbourhood.
   const int useful = std::min(decisions, (track.end + steps_per_decision - 1) / steps_per_decision);
-  const auto consider = [&best](Way way, const Walk& walk, const Plan& plan) {
-    if (way == Way::contact && (!best.contact || walk.reward > best.reward)) {
-      best = {.plan = plan, .reward = walk.reward, .contact = true};
+  const auto consider = [&best](PlanEnding how, const PlanProgress& progress, const Plan& plan) {
+    if (how == PlanEnding::contact && (!best.contact || progress.reward > best.reward)) {
+      best = {.plan = plan, .reward = progress.reward, .contact = true};
     }
   };
-  Way reversing = Way::on;
-  Walk reversed{.robot = robot};
-  for (int reverse = 0; reversing == Way::on && reverse <= std::min(most_reverse, useful); ++reverse) {
-    Way waiting = Way::on;
-    Walk waited = reversed;
-    for (int wait = 0; waiting == Way::on && reverse + wait <= useful; ++wait) {
+  PlanEnding reversing = PlanEnding::none;
+  PlanProgress reversed{.robot = robot};
+  for (int reverse = 0; reversing == PlanEnding::none && reverse <= std::min(most_reverse, useful);
+       ++reverse) {
+    PlanEnding waiting = PlanEnding::none;
+    PlanProgress waited = reversed;
+    for (int wait = 0; waiting == PlanEnding::none && reverse + wait <= useful; ++wait) {
       const Plan plan{.reverse = reverse, .wait = wait};
-      Way ending = Way::on;
-      Walk forward = waited;
-      for (int i = reverse + wait; ending == Way::on && i < useful; ++i) {
+      PlanEnding ending = PlanEnding::none;
+      PlanProgress forward = waited;
+      for (int i = reverse + wait; ending == PlanEnding::none && i < useful; ++i) {
         ending = drive(forward, track, 0, margin_m);
       }
       consider(ending, forward, plan);

@@ -8,19 +8,25 @@
 #include <array>
 #include <cmath>
 
+#include "sil/world/physics_constants.hpp"
 #include "sil/world/planar_robot.hpp"
 #include "training/task/kick_environment.hpp"
 
 namespace striker::training {
 
-// Forward, stop, backward: both wheels' set-point (paper, section IV.A).
-inline constexpr std::array line_set_points_m_s = {2.55, 0.0, -2.55};
+// No robot that starts at rest is faster.
+inline constexpr double top_speed_m_s = forward_spec.max_rim_speed_m_s;
 
+// Forward, stop, backward: both wheels' set-point (paper, section IV.A).
+inline constexpr std::array line_set_points_m_s = {top_speed_m_s, 0.0, -top_speed_m_s};
+
+static_assert(physics_step_ms == 10, "kept_in_10_ms is what a physics step keeps");
+
+// The official task, which the ceiling is of.
 inline constexpr sil::KickRules official;
 inline constexpr double no_contact_reward = sil::kick_decisions * official.waiting_reward;
 
 inline constexpr int task_steps = sil::kick_decisions * steps_per_decision;
-inline constexpr double kept_in_physics_step = 0.9977710522882823;  // 0.8^0.01
 
 struct LineState {
   double position_m = 0.0;
@@ -29,14 +35,14 @@ struct LineState {
 
 inline void advance(LineState& robot, double set_point_m_s) {
   const double moved_m_s = sil::straight_speed_m_s(
-      robot.speed_m_s, {.rim_speed_m_s = set_point_m_s, .torque_ceiling_Nm = torque_ceiling_Nm},
+      robot.speed_m_s,
+      {.rim_speed_m_s = set_point_m_s, .torque_ceiling_Nm = forward_spec.max_wheel_torque_Nm},
       physics_step_s);
   robot.position_m += physics_step_s * moved_m_s;
-  robot.speed_m_s = kept_in_physics_step * moved_m_s;
+  robot.speed_m_s = sil::kept_in_10_ms * moved_m_s;
 }
 
-// No robot that starts at rest is faster, nor gains more in a step.
-inline constexpr double top_speed_m_s = 2.55;
+// Nor does it gain more in a step.
 inline constexpr double most_gain_m_s = 0.118;  // 0.111 from the wheels, 0.006 from damping when it reverses
 
 // Where the ball is before each physics step, and how far from its x the robot's centre touches it there:

@@ -48,14 +48,6 @@ Reachable::Reachable(const LineGrid& grid) : grid_(grid), levels_(sil::kick_deci
   }
 }
 
-std::size_t Reachable::nodes() const {
-  std::size_t sum = 0;
-  for (const auto& level : levels_) {
-    sum += level.size();
-  }
-  return sum;
-}
-
 std::span<const LineNode> Reachable::between(int decision, double low_m, double high_m) const {
   const auto all = level(decision);
   const auto row_of = [this](const LineNode& node) { return grid_.row(node.state.position_m); };

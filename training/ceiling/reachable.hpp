@@ -61,12 +61,11 @@ class Reachable {
   explicit Reachable(const LineGrid& grid);
 
   [[nodiscard]] const LineGrid& grid() const { return grid_; }
-  [[nodiscard]] std::size_t nodes() const;
-  // Before this decision (0 to 39), sorted by rows of the grid.
+  // The nodes that the robot can be in before this decision (0 to 39), sorted by rows of the grid.
   [[nodiscard]] std::span<const LineNode> level(int decision) const {
     return levels_[static_cast<std::size_t>(decision)];
   }
-  // Those of them in the rows of these positions.
+  // The nodes of that level which lie in the rows of these positions, their ends included.
   [[nodiscard]] std::span<const LineNode> between(int decision, double low_m, double high_m) const;
   // Writes the actions that lead to a node of a level into the first `decision` places.
   void actions_to(int decision, std::size_t node, std::span<std::uint8_t> actions) const;

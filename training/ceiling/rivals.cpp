@@ -3,21 +3,20 @@
 #include <cmath>
 
 #include "sil/world/field_specs.hpp"
+#include "sil/world/physics_constants.hpp"
 #include "sil/world/random.hpp"
+#include "sil/world/random_streams.hpp"
 #include "sil/world/robot_specs.hpp"
 
 namespace striker::training {
 
 namespace {
 
-constexpr std::uint64_t random_stream = 105;
-
 constexpr int forward = 0;
 constexpr int stop = 1;
 constexpr int backward = 2;
 
-constexpr double damping_per_s = 0.22314355131420976;  // -ln 0.8
-constexpr double forward_gain_m_s2 = 11.1;
+constexpr double forward_gain_m_s2 = 11.1;  // two wheels' torque over what they push, rounded
 
 // How long the robot takes for this way at full throttle.
 double way_time_s(double way_m, double speed_m_s) {
@@ -32,7 +31,7 @@ double way_time_s(double way_m, double speed_m_s) {
 
 }  // namespace
 
-int intercept(const InterceptorParameters& parameters, const KickEnv& env) {
+int intercept(const InterceptorParameters& parameters, const KickEnvironment& env) {
   const RcsState& seen = env.state();
   const sil::Vec2 ball{seen.ball_x_m, seen.ball_y_m};
   const sil::Vec2 velocity{seen.ball_vx_m_s, seen.ball_vy_m_s};
@@ -42,10 +41,10 @@ int intercept(const InterceptorParameters& parameters, const KickEnv& env) {
   }
   // The ball slows down: its way is its speed times this, at most 1 / damping.
   const double slowed_s = -ball.y / velocity.y;
-  if (!(slowed_s > 0.0) || slowed_s * damping_per_s >= 1.0) {
+  if (!(slowed_s > 0.0) || slowed_s * sil::damping_per_s >= 1.0) {
     return stop;
   }
-  const double crossing_s = -std::log(1.0 - damping_per_s * slowed_s) / damping_per_s;
+  const double crossing_s = -std::log(1.0 - sil::damping_per_s * slowed_s) / sil::damping_per_s;
   const double way_m = ball.x + velocity.x * slowed_s - parameters.stop_short_m;
   const double spare_s = crossing_s - way_time_s(way_m, seen.robot_speed_m_s);
   if (way_m < parameters.run_up_m && spare_s > parameters.time_to_back_up_s) {
@@ -54,7 +53,7 @@ int intercept(const InterceptorParameters& parameters, const KickEnv& env) {
   return way_m > 0.0 && spare_s < parameters.lead_s ? forward : stop;
 }
 
-int plan_ahead(const KickEnv& env) {
+int plan_ahead(const KickEnvironment& env) {
   const RcsState& seen = env.state();
   const int left = env.decisions_left();
   const BallTrack track = ball_track(
@@ -70,18 +69,19 @@ std::string_view name_of(Rival rival) {
   return names.at(static_cast<std::size_t>(rival));
 }
 
-Choice rule_of(Rival rival, std::uint64_t seed, std::uint64_t episode) {
+ActionRule rule_of(Rival rival, std::uint64_t seed, std::uint64_t episode) {
   switch (rival) {
     case Rival::forward:
-      return [](const KickEnv&) { return forward; };
+      return [](const KickEnvironment&) { return forward; };
     case Rival::stop:
-      return [](const KickEnv&) { return stop; };
+      return [](const KickEnvironment&) { return stop; };
     case Rival::random:
-      return [random = sil::Random(seed, episode, random_stream)](const KickEnv&) mutable {
+      return [random = sil::Random(seed, episode, sil::random_stream::random_rival)](
+                 const KickEnvironment&) mutable {
         return static_cast<int>(random.below(line_set_points_m_s.size()));
       };
     case Rival::interceptor:
-      return [](const KickEnv& env) { return intercept({}, env); };
+      return [](const KickEnvironment& env) { return intercept({}, env); };
     case Rival::planner:
       break;
   }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include "training/ceiling/line_play.hpp"
@@ -22,11 +23,11 @@ struct InterceptorParameters {
   double time_to_back_up_s = 0.1555;  // and at least so much time is left over
 };
 
-[[nodiscard]] int intercept(const InterceptorParameters& parameters, const KickEnv& env);
+[[nodiscard]] int intercept(const InterceptorParameters& parameters, const KickEnvironment& env);
 
 // Simulates every "reverse for up to 12 decisions, wait, then forward" from here on, and begins the best one.
 // It plans anew at each decision.
-[[nodiscard]] int plan_ahead(const KickEnv& env);
+[[nodiscard]] int plan_ahead(const KickEnvironment& env);
 
 enum class Rival { forward, stop, random, interceptor, planner };
 inline constexpr std::array all_rivals = {Rival::forward, Rival::stop, Rival::random, Rival::interceptor,
@@ -34,7 +35,10 @@ inline constexpr std::array all_rivals = {Rival::forward, Rival::stop, Rival::ra
 
 [[nodiscard]] std::string_view name_of(Rival rival);
 
+// What a rule does in a situation: the number of an action.
+using ActionRule = std::function<int(const KickEnvironment&)>;
+
 // For one episode: the random one draws from (seed, episode).
-[[nodiscard]] Choice rule_of(Rival rival, std::uint64_t seed, std::uint64_t episode);
+[[nodiscard]] ActionRule rule_of(Rival rival, std::uint64_t seed, std::uint64_t episode);
 
 }  // namespace striker::training

@@ -10,6 +10,7 @@
 #include "firmware/host/files.hpp"
 #include "training/model/hash.hpp"
 #include "training/model/model.hpp"
+#include "training/run/evaluation.hpp"
 #include "training/run/training_run.hpp"
 
 namespace striker::training {
@@ -39,17 +40,9 @@ std::string configuration_hash(const Variant& variant) {
 }
 
 // Mean greedy reward on the episodes that an evaluation draws.
-double evaluate(const EnvConfig& task, sil::PoseMode pose, const Parameters& parameters) {
-  EnvConfig placed = task;
-  placed.pose = pose;
-  KickEnv env(placed);
-  Actor actor(parameters.shape());
-  const Choice choose = [&](const KickEnv& seen) { return actor.choose(parameters, seen.features()); };
-  double sum = 0.0;
-  for (std::uint64_t i = 0; i < evaluation_episodes; ++i) {
-    sum += play(env, evaluation_seed, i, choose).reward;
-  }
-  return sum / evaluation_episodes;
+double mean_reward_at(sil::PoseMode pose, TaskConfig task, const Parameters& parameters) {
+  task.pose = pose;
+  return mean_reward(task, parameters, evaluation_seed, 0, evaluation_episodes);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why, const SeedRun& run) {
@@ -145,17 +138,17 @@ void carry_out(const SeedRun& run, const std::filesystem::path& directory) {
     curve += fmt::format("{},{:.6f},{:.6f}\n", row.episode.episode, row.episode.reward, row.moving_average);
   }
   const Model model = model_of(training);
-  const EnvConfig& task = run.variant->config.environments.front();
+  const TaskConfig& task = run.variant->config.environments.front();
   const nlohmann::ordered_json figures = {
       {"variant", run.variant->name},
       {"seed", run.seed},
       {"configuration_hash", configuration_hash(*run.variant)},
       {"identity", model.metadata.at("identity")},
-      {"decisions", training.learner().decisions()},
+      {"decisions", training.learner().state().decisions},
       {"evaluation_seed", evaluation_seed},
       {"evaluation_episodes", evaluation_episodes},
-      {"origin_mean", evaluate(task, sil::PoseMode::origin, model.parameters)},
-      {"anywhere_mean", evaluate(task, sil::PoseMode::anywhere, model.parameters)}};
+      {"origin_mean", mean_reward_at(sil::PoseMode::origin, task, model.parameters)},
+      {"anywhere_mean", mean_reward_at(sil::PoseMode::anywhere, task, model.parameters)}};
   host::write_file(curve_file, curve);
   save_model(model, model_file);
   host::write_file(figures_file, figures.dump(2) + "\n");

@@ -1,8 +1,7 @@
 // What an experiment's runs say together. All runs must be complete; the same runs give the same bytes.
 #pragma once
 
-#include <filesystem>
-#include <string>
+#include <array>
 #include <vector>
 
 #include "training/experiment/experiment.hpp"
@@ -35,7 +34,8 @@ struct VariantSummary {
   const Variant* variant = nullptr;
   int runs = 0;
   std::array<Crossing, crossing_levels> crossings;
-  Estimate start;          // first full moving average; this and the next ones: interquartile means
+  // Interquartile means over the seeds.
+  Estimate start;          // first full moving average
   Estimate best;           // greatest moving average
   Estimate final_mean;     // of the last 1,000 episodes' rewards
   Estimate origin_mean;    // greedy, held-out episodes at the origin
@@ -46,18 +46,8 @@ struct VariantSummary {
 };
 
 // The runs of each variant, in the order of the variants; `ceiling` is the best mean reward possible.
-[[nodiscard]] std::vector<VariantSummary> summarise(const std::vector<Variant>& variants,
-                                                    const std::vector<std::vector<RunFigures>>& runs,
-                                                    double ceiling);
-
-// summary.csv, curves.csv and, for people, summary.md.
-void write_summary(const std::vector<VariantSummary>& summaries, double ceiling,
-                   const std::filesystem::path& directory);
-
-// The paper's three claims beside what was found (the paper's experiment), as a table in Markdown.
-[[nodiscard]] std::string claims_table(const std::vector<VariantSummary>& summaries);
-
-// Which reading comes closest to the paper's curve, as a table in Markdown.
-[[nodiscard]] std::string readings_table(const std::vector<VariantSummary>& summaries);
+[[nodiscard]] std::vector<VariantSummary> summarise_variants(const std::vector<Variant>& variants,
+                                                             const std::vector<std::vector<RunFigures>>& runs,
+                                                             double ceiling);
 
 }  // namespace striker::training

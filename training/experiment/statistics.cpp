@@ -5,12 +5,11 @@
 #include <numeric>
 
 #include "sil/world/random.hpp"
+#include "sil/world/random_streams.hpp"
 
 namespace striker::training {
 
 namespace {
-
-constexpr std::uint64_t bootstrap_stream = 106;
 
 std::vector<double> sorted(std::span<const double> values) {
   std::vector<double> copy(values.begin(), values.end());
@@ -41,7 +40,7 @@ double interquartile_mean(std::span<const double> values) {
 Interval bootstrap_interval(const std::vector<std::vector<double>>& strata,
                             const std::function<double(const std::vector<std::vector<double>>&)>& statistic,
                             std::uint64_t seed) {
-  sil::Random random(seed, 0, bootstrap_stream);
+  sil::Random random(seed, 0, sil::random_stream::bootstrap);
   std::vector<std::vector<double>> drawn = strata;
   std::vector<double> statistics;
   statistics.reserve(bootstrap_draws);

@@ -10,6 +10,7 @@
 
 namespace striker::training {
 
+// The sum over the count: in the last digit another number than sil::mean_estimate, which reports of episodes give.
 [[nodiscard]] double mean(std::span<const double> values);
 
 // Linear between the sorted values; share 0 is the least, 1 the greatest.

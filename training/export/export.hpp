@@ -1,14 +1,14 @@
-// From a trained model to everything that striker-export writes.
+// From a trained model to the policy that the firmware takes, and how far it is from the model.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "training/export/agreement.hpp"
+#include "training/export/comparison/agreement.hpp"
+#include "training/export/comparison/reward_difference.hpp"
 #include "training/export/export_header.hpp"
 #include "training/export/quantise.hpp"
-#include "training/export/reward_difference.hpp"
 #include "training/model/model.hpp"
 
 namespace striker::training {
@@ -21,19 +21,14 @@ struct Export {
   RewardDifference reward;
 };
 
-// Plays episodes that neither training nor evaluation meets, greedily and at random, for calibration states
-// and golden vectors. Throws std::runtime_error for a model that the firmware could not serve.
-[[nodiscard]] Export export_model(const Model& model, const EnvConfig& task,
+// Plays episodes that neither training nor evaluation meets, greedily and at random, for calibration states and golden
+// vectors; takes about 10 s. Throws std::runtime_error for a model that the firmware could not serve (firmware_limits.hpp)
+// or that cannot be quantised (quantise.hpp).
+[[nodiscard]] Export export_model(const Model& model, const TaskConfig& task,
                                   WeightType weights = WeightType::int16);
-
-// The exported header: striker::policy::NAME below a comment that says what it is.
-[[nodiscard]] std::string header_of(const Export& exported, const Model& model, const std::string& name);
 
 // The name of a policy whose header is written to `file`: its name without extension. Throws
 // std::runtime_error if that is no lower-case C++ identifier.
 [[nodiscard]] std::string policy_name_of(const std::filesystem::path& file);
-
-// The same figures as JSON.
-[[nodiscard]] std::string report_of(const Export& exported, const Model& model);
 
 }  // namespace striker::training

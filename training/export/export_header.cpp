@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "training/model/hash.hpp"
@@ -70,14 +71,18 @@ std::string inputs_text(const ExportedPolicy& policy) {
   }
   return fmt::format(
       "    .state = {{{{\n{}    }}}},\n    .mirrored = {},\n    .input_scales = {{{{\n{}    }}}},\n",
-      elements, policy.mirrored, scales);
+      elements, policy.one_sided, scales);
 }
 
-std::string set_points_text(const std::vector<SetPoint>& set_points) {
+std::int32_t mm_s(double speed_m_s) {
+  return static_cast<std::int32_t>(std::lround(speed_m_s * 1e3));
+}
+
+std::string set_points_text(const std::vector<SetPoint>& actions) {
   std::string text = "    .set_points = {{\n";
-  for (const SetPoint& set_point : set_points) {
-    text += fmt::format("        {{.left_mm_s = {}, .right_mm_s = {}}},\n", set_point.left_mm_s,
-                        set_point.right_mm_s);
+  for (const SetPoint& action : actions) {
+    text += fmt::format("        {{.left_mm_s = {}, .right_mm_s = {}}},\n", mm_s(action.left_m_s),
+                        mm_s(action.right_m_s));
   }
   return text + "    }},\n";
 }
@@ -101,7 +106,7 @@ std::uint32_t identity_of(const ExportedPolicy& policy) {
     hash.add(static_cast<std::uint8_t>(input.element));
     hash.add(static_cast<std::uint8_t>(input.decisions_ago));
   }
-  hash.add(static_cast<std::uint8_t>(policy.mirrored));
+  hash.add(static_cast<std::uint8_t>(policy.one_sided));
   for (const InputScale& scale : policy.network.input_scales) {
     hash.add(scale.multiplier);
     hash.add(static_cast<std::uint8_t>(scale.shift));
@@ -109,9 +114,9 @@ std::uint32_t identity_of(const ExportedPolicy& policy) {
   for (const IntegerLayer& layer : policy.network.layers) {
     add_layer(hash, layer, policy.network.weights);
   }
-  for (const SetPoint& set_point : policy.set_points) {
-    hash.add(set_point.left_mm_s);
-    hash.add(set_point.right_mm_s);
+  for (const SetPoint& action : policy.actions) {
+    hash.add(mm_s(action.left_m_s));
+    hash.add(mm_s(action.right_m_s));
   }
   for (const GoldenVector& golden : policy.golden_vectors) {
     for (const std::int32_t raw : golden.raw) {
@@ -145,7 +150,7 @@ std::string header_text(const ExportedPolicy& policy, const std::string& name,
   text += layer_text("layer1", layers.at(0));
   text += layer_text("layer2", layers.at(1));
   text += layer_text("output", layers.at(2));
-  text += set_points_text(policy.set_points);
+  text += set_points_text(policy.actions);
   text += goldens_text(policy.golden_vectors);
   text += "};\n// clang-format on\n\n}  // namespace striker::policy\n";
   return text;

@@ -1,25 +1,28 @@
-// The learner: a deep Q network (Mnih et al. 2015) as in the paper, with the options of the configuration.
-// dqn.cpp holds all of it, from an episode's decisions down to the gradient step.
+// The learner: a deep Q network (Mnih et al. 2015) as in the paper, with the options of the configuration. An episode's
+// decisions are below the class, the gradient step is dqn.cpp from top to bottom. It learns in any Environment.
+//
+//   Learner learner(setup, seed);
+//   env.reset(seed, episode);
+//   EpisodeRow row = learner.play(env, 0);
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
-#include "sil/world/random.hpp"
+#include "training/learner/learner_config.hpp"
+#include "training/learner/learner_state.hpp"
 #include "training/learner/network.hpp"
-#include "training/learner/priorities.hpp"
-#include "training/learner/replay_buffer.hpp"
-#include "training/model/safetensors.hpp"
-#include "training/run/config.hpp"
+#include "training/task/environment.hpp"
 
 namespace striker::training {
 
 // What one episode of training was like.
 struct EpisodeRow {
   int episode = 0;
-  int steps = 0;  // decisions until the contact, or 40
+  int decisions = 0;  // until the episode's end
   double reward = 0.0;
-  bool contact = false;
+  bool success = false;  // for the kick: contact
   double epsilon = 0.0;
   double learning_rate = 0.0;
   // Means over the episode's gradient steps, 0 if there were none.
@@ -28,31 +31,30 @@ struct EpisodeRow {
   double q = 0.0;         // of the actions in the samples
 };
 
-// Everything that learns, and nothing else: save it at the end of an episode, restore it into a learner of
-// the same configuration and seed, and it goes on to the same bits. Allocates nothing once made.
+// Allocates nothing once made.
 class Learner {
  public:
-  Learner(const Config& config, std::uint64_t seed);
+  Learner(const LearnerSetup& setup, std::uint64_t seed);
 
-  // Plays training episode `episode` in `env`, which has been reset to its start, and learns from it.
-  EpisodeRow play(KickEnv& env, int episode);
+  // Plays training episode `episode` in `env`, which has been reset to its start, and learns from it: up to `end`,
+  // past which it never looks.
+  template <Environment E>
+  EpisodeRow play(E& env, int episode);
 
   // What is learnt so far: the network that the model will hold.
   [[nodiscard]] Parameters result() const;
 
-  [[nodiscard]] std::int64_t decisions() const { return decisions_; }
-  [[nodiscard]] std::int64_t gradient_steps() const { return gradient_steps_; }
+  // Between two episodes: all that goes on. `resume` takes the state of a learner of the same setup.
+  [[nodiscard]] const LearnerState& state() const { return state_; }
+  void resume(LearnerState state);
 
   // For benchmarks: a gradient step by itself.
-  void remember(const Features& state, int action, double reward, const Features& next, bool end);
+  void remember(const Features& features, int action, double reward, const Features& next, bool end);
   void learn(EpisodeRow& row);
 
-  // In checkpoint.cpp.
-  void save(SafeTensors& checkpoint) const;
-  void restore(const SafeTensors& checkpoint);
-
  private:
-  int choose(const Features& state, double epsilon);
+  EpisodeRow begin_episode(int episode);
+  int choose(const Features& features, double epsilon);
   [[nodiscard]] bool warm() const;
   void sample();
   double differentiate(EpisodeRow& row);
@@ -62,42 +64,57 @@ class Learner {
   void follow();
   void round_online();
   // The online network as it plays and is differentiated.
-  [[nodiscard]] const Parameters& played() const { return config_.int8_weights ? rounded_ : online_; }
+  [[nodiscard]] const Parameters& played() const { return config_.int8_weights ? rounded_ : state_.online; }
 
   LearnerConfig config_;
   OptimiserConfig optimiser_;
   ExplorationConfig exploration_;
-  int episodes_;
+  int planned_episodes_;
+  MirrorImage mirror_;
 
-  Parameters online_;
+  LearnerState state_;
   Parameters rounded_;
-  Parameters target_;
-  Parameters average_;
-  Adam adam_;
-  ReplayBuffer replay_;
-  Priorities priorities_;
-  NStep n_step_;
-  sil::Random choosing_;
+  NStep n_step_;            // empty between two episodes
   bool exploring_ = false;  // the last choice was random
-  sil::Random sampling_;
-  std::int64_t decisions_ = 0;
-  std::int64_t gradient_steps_ = 0;
-  double progress_ = 0.0;  // of the training, 0 to 1
+  double progress_ = 0.0;   // of the training, 0 to 1
 
   // The room of a gradient step: a sample a column.
   std::vector<Eigen::Index> places_;
   std::vector<int> actions_;
-  Eigen::MatrixXf states_, next_states_, q_gradient_;
+  Eigen::MatrixXf sampled_, sampled_next_, q_gradient_;
   Eigen::VectorXf td_errors_, sample_weights_;
-  Features mirror_factors_;
-  std::vector<int> mirrored_actions_;
   Pass pass_, next_pass_, choosing_pass_;
   Eigen::VectorXf gradient_;
   Actor actor_;
-  Features state_, next_state_;
+  Features features_, next_features_;
 };
 
 // The weights that a training begins with: uniform, He et al. 2015; biases 0.
 [[nodiscard]] Parameters initial_parameters(const Shape& shape, std::uint64_t seed);
+
+template <Environment E>
+EpisodeRow Learner::play(E& env, int episode) {
+  EpisodeRow row = begin_episode(episode);
+  const std::int64_t steps_before = state_.gradient_steps;
+  features_ = env.features();
+  for (bool end = false; !end; ++row.decisions) {
+    const int action = choose(features_, row.epsilon);
+    const StepResult result = env.step(action);
+    end = result.end;
+    next_features_ = env.features();
+    remember(features_, action, result.reward, next_features_, end);
+    features_.swap(next_features_);
+    for (int i = 0; warm() && i < config_.gradient_steps; ++i) {
+      learn(row);
+    }
+  }
+  row.reward = env.outcome().reward;
+  row.success = env.success();
+  const auto steps = static_cast<double>(std::max<std::int64_t>(1, state_.gradient_steps - steps_before));
+  row.loss /= steps;
+  row.td_error /= steps;
+  row.q /= steps;
+  return row;
+}
 
 }  // namespace striker::training

@@ -97,6 +97,20 @@ class Actor {
   Pass pass_;
 };
 
+// Greedy play by a network, as `play` (training/task/environment.hpp) asks for a rule. One thread may use it.
+class GreedyRule {
+ public:
+  explicit GreedyRule(const Parameters& parameters) : parameters_(&parameters), actor_(parameters.shape()) {}
+  template <class E>
+  [[nodiscard]] int operator()(const E& seen) {
+    return actor_.choose(*parameters_, seen.features());
+  }
+
+ private:
+  const Parameters* parameters_;
+  Actor actor_;
+};
+
 // Adam (Kingma and Ba 2015) with its usual constants: beta 0.9 and 0.999, epsilon 1e-8.
 struct Adam {
   explicit Adam(Eigen::Index size);

@@ -162,22 +162,4 @@ std::string model_identity(const Parameters& parameters) {
   return fmt::format("{:08x}", hash.value());
 }
 
-EnvConfig task_of(const Model& model, const std::filesystem::path& config_file) {
-  const auto noted = model.metadata.find("configuration");
-  const bool has_note = noted != model.metadata.end();
-  const Config config = !config_file.empty() ? load_config(config_file)
-                        : has_note           ? parse_config(noted->second, "the model's configuration")
-                                             : parse_config("", "the default configuration");
-  EnvConfig task = config.environments.front();
-  const Shape& shape = model.parameters.shape();
-  if (shape.inputs != static_cast<int>(task.inputs.size()) ||
-      shape.actions != static_cast<int>(task.actions.size())) {
-    throw std::runtime_error(fmt::format(
-        "the network has {} inputs and {} actions, but its task {} and {}; give the configuration whose "
-        "task.inputs and task.actions it was trained with as --config",
-        shape.inputs, shape.actions, task.inputs.size(), task.actions.size()));
-  }
-  return task;
-}
-
 }  // namespace striker::training

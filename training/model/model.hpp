@@ -12,7 +12,6 @@
 
 #include "training/learner/network.hpp"
 #include "training/model/safetensors.hpp"
-#include "training/run/config.hpp"
 
 namespace striker::training {
 
@@ -33,10 +32,5 @@ void save_model(const Model& model, const std::filesystem::path& file);
 
 // FNV-1a of the weights, layer by layer as in the file; printed as 8 hexadecimal digits.
 [[nodiscard]] std::string model_identity(const Parameters& parameters);
-
-// What the network was trained for, from its configuration. `config_file` tells it of a model that does not
-// hold one; without either it is the official task with the RCS state. Throws if inputs or actions do not
-// fit the network.
-[[nodiscard]] EnvConfig task_of(const Model& model, const std::filesystem::path& config_file);
 
 }  // namespace striker::training

@@ -9,6 +9,7 @@
 #include "firmware/host/files.hpp"
 #include "firmware/host/progress.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "training/ceiling/ceiling_report.hpp"
 #include "training/ceiling/ceiling_run.hpp"
 
 namespace striker::training {
@@ -28,7 +29,7 @@ struct Options {
 int find_ceiling(Options options) {
   CeilingOptions& run = options.run;
   run.pose = options.pose == "origin" ? sil::PoseMode::origin : sil::PoseMode::anywhere;
-  run.replay = options.replay == "fast" ? World::fast : World::full;
+  run.replay = options.replay == "fast" ? Physics::planar : Physics::full;
   run.grid = {.position_cell_m = options.position_cell_mm * 1e-3,
               .speed_cell_m_s = options.speed_cell_mm_s * 1e-3};
   host::catch_stop_signals();
@@ -64,10 +65,9 @@ int find_ceiling(Options options) {
 int main(int argc, char** argv) {
   using namespace striker::training;
   CLI::App app(
-      "Finds the best reward that any sequence of the three actions gets in each episode of the official "
-      "kick\n"
-      "task, on the episodes that striker-evaluate and striker-sil play with the same seed, and replays the\n"
-      "sequences. The mean is what a score is measured against: (mean reward + 4) / (ceiling + 4).",
+      "Finds the best reward that any sequence of the three actions gets in each episode of the official\n"
+      "kick task, on the episodes that striker-evaluate and striker-sil play with the same seed, and replays\n"
+      "the sequences. The mean is what a score is measured against: (mean reward + 4) / (ceiling + 4).",
       "striker-ceiling");
   Options options;
   app.add_option("--episodes", options.run.episodes, "how many, 1 to 1000000")

@@ -10,8 +10,9 @@
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/files.hpp"
 #include "sil/task/kick_report.hpp"
-#include "training/export/agreement.hpp"
+#include "training/export/comparison/agreement.hpp"
 #include "training/model/model.hpp"
+#include "training/run/model_task.hpp"
 #include "training/task/kick_environment.hpp"
 
 namespace striker::training {
@@ -30,13 +31,12 @@ struct Options {
   std::filesystem::path json;
 };
 
-int evaluate_play(const Options& options, const Model& model, EnvConfig task) {
+int evaluate_play(const Options& options, const Model& model, TaskConfig task) {
   task.pose = options.pose == "origin" ? sil::PoseMode::origin : sil::PoseMode::anywhere;
   task.velocities = options.velocities == "true" ? Velocities::exact : Velocities::estimated;
-  task.world = options.world == "full" ? World::full : World::fast;
-  KickEnv env(task);
-  Actor actor(model.parameters.shape());
-  const Choice choose = [&](const KickEnv& seen) { return actor.choose(model.parameters, seen.features()); };
+  task.physics = options.world == "full" ? Physics::full : Physics::planar;
+  KickEnvironment env(task);
+  GreedyRule greedy(model.parameters);
   sil::KickRun run;
   run.seed = options.seed;
   run.plant = "servo";
@@ -45,7 +45,7 @@ int evaluate_play(const Options& options, const Model& model, EnvConfig task) {
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < options.episodes; ++i) {
     const auto episode = static_cast<std::uint64_t>(i);
-    run.episodes.push_back(play(env, options.seed, episode, choose));
+    run.episodes.push_back(play(env, options.seed, episode, greedy));
   }
   run.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   run.simulated_s = env.simulated_s();
@@ -56,7 +56,7 @@ int evaluate_play(const Options& options, const Model& model, EnvConfig task) {
   return 0;
 }
 
-int evaluate_decisions(const Options& options, const Model& model, const EnvConfig& task) {
+int evaluate_decisions(const Options& options, const Model& model, const TaskConfig& task) {
   const Agreement result =
       agreement(model.parameters, task.inputs, load_decisions(options.decisions, model.parameters.shape()));
   if (!options.json.empty()) {
@@ -84,13 +84,11 @@ int evaluate_decisions(const Options& options, const Model& model, const EnvConf
 int main(int argc, char** argv) {
   using namespace striker::training;
   CLI::App app(
-      "Plays the kick task greedily with a float network (ODE world, servo plant), on episodes that no "
-      "training\n"
-      "meets: episode i of a seed is the same one in striker-sil. With --decisions it plays nothing, but "
-      "says\n"
-      "how far the choices in a file that striker-sil wrote agree with the network's. The network may come "
-      "from\n"
-      "elsewhere (PyTorch, Stable-Baselines3), if it was saved as safetensors in float32.",
+      "Plays the kick task greedily with a float network (ODE world, servo plant), on episodes that no\n"
+      "training meets: episode i of a seed is the same one in striker-sil. With --decisions it plays\n"
+      "nothing, but says how far the choices in a file that striker-sil wrote agree with the network's.\n"
+      "The network may come from elsewhere (PyTorch, Stable-Baselines3), if it was saved as safetensors\n"
+      "in float32.",
       "striker-evaluate");
   Options options;
   app.add_option("--model", options.model, "safetensors file")->required();
@@ -116,7 +114,7 @@ int main(int argc, char** argv) {
       throw std::runtime_error("give --episodes and --seed, or --decisions");
     }
     const Model model = load_model(options.model);
-    const EnvConfig task = task_of(model, options.config);
+    const TaskConfig task = task_of(model, options.config);
     return *decisions ? evaluate_decisions(options, model, task) : evaluate_play(options, model, task);
   });
 }

@@ -16,6 +16,9 @@
 #include "training/experiment/experiment.hpp"
 #include "training/experiment/experiment_summary.hpp"
 #include "training/experiment/ranks.hpp"
+#include "training/experiment/summary_csv.hpp"
+#include "training/experiment/summary_markdown.hpp"
+#include "training/experiment/verdicts.hpp"
 #include "training/experiment/workers.hpp"
 
 namespace striker::training {
@@ -34,7 +37,7 @@ struct Options {
   bool figures = true;
 };
 
-struct Kind {
+struct ExperimentKind {
   const char* name;
   const char* says;
   std::vector<Variant> (*variants)(const std::string& base_text, const std::string& base_name);
@@ -43,12 +46,13 @@ struct Kind {
 };
 
 constexpr std::array kinds = {
-    Kind{"paper",
-         "RCS, RCS with dummies, ACS, the printed equations; sets the paper's claims beside what was found",
-         paper_variants, "claims.md", claims_table},
-    Kind{"readings", "what the paper leaves open, varied: which reading comes closest to its curve",
-         paper_readings, "readings.md", readings_table},
-    Kind{"widths", "the RCS state with networks of several widths", network_widths, "", nullptr},
+    ExperimentKind{
+        "paper",
+        "RCS, RCS with dummies, ACS, the printed equations; sets the paper's claims beside what was found",
+        paper_variants, "claims.md", claims_table},
+    ExperimentKind{"readings", "what the paper leaves open, varied: which reading comes closest to its curve",
+                   paper_readings, "readings.md", readings_table},
+    ExperimentKind{"widths", "the RCS state with networks of several widths", network_widths, "", nullptr},
 };
 
 struct Experiment {
@@ -56,7 +60,7 @@ struct Experiment {
   std::vector<SeedRun> runs;  // variant by variant
 };
 
-Experiment make_experiment(const Options& options, const Kind& kind) {
+Experiment make_experiment(const Options& options, const ExperimentKind& kind) {
   const std::string text = options.config.empty() ? "" : host::read_file(options.config);
   const std::string name = options.config.empty() ? "paper.toml" : options.config.string();
   const std::string base = parse_config(text, name, options.changes).text;
@@ -125,7 +129,7 @@ void draw_figures(const std::filesystem::path& directory) {
   }
 }
 
-int summarise_all(const Experiment& experiment, const Options& options, const Kind& kind) {
+int report_all(const Experiment& experiment, const Options& options, const ExperimentKind& kind) {
   std::vector<std::vector<RunFigures>> runs(experiment.variants.size());
   std::size_t missing = 0;
   for (std::size_t i = 0; i < experiment.runs.size(); ++i) {
@@ -142,9 +146,12 @@ int summarise_all(const Experiment& experiment, const Options& options, const Ki
         experiment.runs.size() - missing, experiment.runs.size());
     return host::stop_requested() ? host::exit_interrupted : exit_failed_runs;
   }
-  const auto summaries = summarise(experiment.variants, runs, options.ceiling);
-  write_summary(summaries, options.ceiling, options.out);
-  fmt::print("{}", host::read_file(options.out / "summary.md"));
+  const auto summaries = summarise_variants(experiment.variants, runs, options.ceiling);
+  const std::string markdown = summary_markdown(summaries, options.ceiling);
+  host::write_file(options.out / "summary.csv", summary_csv(summaries));
+  host::write_file(options.out / "curves.csv", curves_csv(summaries));
+  host::write_file(options.out / "summary.md", markdown);
+  fmt::print("{}", markdown);
   if (kind.table_of != nullptr) {
     const std::string table = kind.table_of(summaries);
     host::write_file(options.out / kind.table, table);
@@ -157,7 +164,7 @@ int summarise_all(const Experiment& experiment, const Options& options, const Ki
   return 0;
 }
 
-int carry_out_experiment(Options options, const Kind& kind) {
+int carry_out_experiment(Options options, const ExperimentKind& kind) {
   const Ranks ranks;
   if (options.jobs == 0) {
     options.jobs = ranks.size() > 1 ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -170,7 +177,7 @@ int carry_out_experiment(Options options, const Kind& kind) {
   if (ranks.rank() > 0) {
     return failures > 0 ? exit_failed_runs : 0;
   }
-  return summarise_all(experiment, options, kind);
+  return report_all(experiment, options, kind);
 }
 
 void add_options(CLI::App& command, Options& options) {
@@ -201,22 +208,20 @@ void add_options(CLI::App& command, Options& options) {
 int main(int argc, char** argv) {
   using namespace striker::training;
   CLI::App app(
-      "Trains each variant of the paper's experiment with several seeds, and writes every run's learning "
-      "curve,\n"
-      "model and figures (DIR/runs), a summary with intervals (summary.csv, summary.md, curves.csv) and "
-      "figures\n"
-      "(SVG and PNG). Complete runs are kept: the same command goes on where it was interrupted. Equal bytes "
-      "with\n"
-      "any number of jobs, and under mpirun, where each process takes its share of the runs.",
+      "Trains each variant of the paper's experiment with several seeds, and writes every run's learning\n"
+      "curve, model and figures (DIR/runs), a summary with intervals (summary.csv, summary.md, curves.csv)\n"
+      "and figures (SVG and PNG). Complete runs are kept: the same command goes on where it was interrupted.\n"
+      "Equal bytes with any number of jobs, and under mpirun, where each process takes its share of the runs.",
       "striker-experiment");
   Options options;
-  for (const Kind& kind : kinds) {
+  for (const ExperimentKind& kind : kinds) {
     add_options(*app.add_subcommand(kind.name, kind.says), options);
   }
   app.require_subcommand(1);
   return striker::host::run(app, argc, argv, [&] {
-    const auto chosen = std::find_if(kinds.begin(), kinds.end(),
-                                     [&](const Kind& kind) { return app.got_subcommand(kind.name); });
+    const auto chosen = std::find_if(kinds.begin(), kinds.end(), [&](const ExperimentKind& kind) {
+      return app.got_subcommand(kind.name);
+    });
     return carry_out_experiment(options, *chosen);
   });
 }

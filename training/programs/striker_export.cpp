@@ -7,6 +7,8 @@
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/files.hpp"
 #include "training/export/export.hpp"
+#include "training/export/export_report.hpp"
+#include "training/run/model_task.hpp"
 
 namespace striker::training {
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "firmware/host/command_line.hpp"
@@ -22,8 +23,8 @@ struct Options {
   bool resume = false;
 };
 
-std::string mean_or_not(const std::string& mean) {
-  return mean.empty() ? "not measured" : mean;
+std::string mean_or_not(std::optional<double> mean) {
+  return mean ? fmt::format("{:.3f}", *mean) : "not measured";
 }
 
 void report(const TrainingResult& result, const Config& config, const std::filesystem::path& out) {
@@ -33,8 +34,9 @@ void report(const TrainingResult& result, const Config& config, const std::files
       result.episodes, result.decisions, result.gradient_steps,
       std::min(moving_average_span, result.episodes), result.moving_average, config.run.validation_episodes,
       mean_or_not(result.mean_reward));
-  if (!result.best_mean_reward.empty()) {
-    fmt::print("best on the way: {}, {}\n", result.best_mean_reward, (out / "best.safetensors").string());
+  if (result.best_mean_reward) {
+    fmt::print("best on the way: {:.3f}, {}\n", *result.best_mean_reward,
+               (out / "best.safetensors").string());
   }
   fmt::print("{}\n{}\n", (out / "model.safetensors").string(), (out / "learning_curve.csv").string());
 }
@@ -72,10 +74,9 @@ int train_and_save(const Options& options) {
 int main(int argc, char** argv) {
   using namespace striker::training;
   CLI::App app(
-      "Trains a Q network on the kick task (servo plant) and writes DIR/model.safetensors, "
-      "learning_curve.csv,\n"
-      "speed.csv and, where the configuration asks for greedy evaluations, best.safetensors and "
-      "evaluations.csv.\n"
+      "Trains a Q network on the kick task (servo plant) and writes DIR/model.safetensors,\n"
+      "learning_curve.csv, speed.csv and, where the configuration asks for greedy evaluations,\n"
+      "best.safetensors and evaluations.csv. training/README.md explains every column.\n"
       "The same configuration and seed give the same bytes on one type of machine (but for speed.csv).\n"
       "Ctrl-C ends it after the running episode and keeps everything (exit code 130); --resume goes on.",
       "striker-train");

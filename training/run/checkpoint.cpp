@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <sstream>
@@ -83,6 +84,52 @@ std::string list_of(const std::vector<double>& values) {
   return list;
 }
 
+void add_learner(const LearnerState& state, const LearnerConfig& config, SafeTensors& checkpoint) {
+  checkpoint.tensors = {
+      tensor_of("online", state.online.values),    tensor_of("target", state.target.values),
+      tensor_of("average", state.average.values),  tensor_of("adam.mean", state.adam.mean),
+      tensor_of("adam.square", state.adam.square), tensor_of("replay", state.replay.content())};
+  if (config.prioritised) {
+    const auto leaves = state.priorities.leaves(static_cast<std::size_t>(state.replay.size()));
+    checkpoint.tensors.push_back(
+        {.name = "priorities", .shape = {leaves.size()}, .values = {leaves.begin(), leaves.end()}});
+  }
+  checkpoint.metadata["adam.mean_decay"] = exact(state.adam.mean_decay);
+  checkpoint.metadata["adam.square_decay"] = exact(state.adam.square_decay);
+  checkpoint.metadata["greatest_priority"] = exact(state.priorities.greatest());
+  checkpoint.metadata["replay.pushed"] = std::to_string(state.replay.pushed());
+  checkpoint.metadata["decisions"] = std::to_string(state.decisions);
+  checkpoint.metadata["gradient_steps"] = std::to_string(state.gradient_steps);
+  checkpoint.metadata["random.choosing"] = std::to_string(state.choosing.state());
+  checkpoint.metadata["random.sampling"] = std::to_string(state.sampling.state());
+}
+
+// `state` is that of a new learner of the same setup: it has the sizes.
+LearnerState read_learner(const SafeTensors& checkpoint, const LearnerConfig& config, LearnerState state) {
+  const Eigen::Index size = state.online.values.size();
+  state.online.values = matrix(checkpoint, "online", size, 1);
+  state.target.values = matrix(checkpoint, "target", size, 1);
+  state.average.values = matrix(checkpoint, "average", size, 1);
+  state.adam.mean = matrix(checkpoint, "adam.mean", size, 1);
+  state.adam.square = matrix(checkpoint, "adam.square", size, 1);
+  state.adam.mean_decay = real(text(checkpoint, "adam.mean_decay"));
+  state.adam.square_decay = real(text(checkpoint, "adam.square_decay"));
+  const auto pushed = number<std::int64_t>(checkpoint, "replay.pushed");
+  const Eigen::Index held = std::min<Eigen::Index>(pushed, config.replay_size);
+  const Eigen::Index rows = 2 * state.online.shape().inputs + 3;
+  state.replay.restore(pushed, matrix(checkpoint, "replay", rows, held));
+  if (config.prioritised) {
+    const auto leaves = matrix(checkpoint, "priorities", held, 1);
+    state.priorities.restore(std::vector<double>(leaves.data(), leaves.data() + leaves.size()),
+                             real(text(checkpoint, "greatest_priority")));
+  }
+  state.decisions = number<std::int64_t>(checkpoint, "decisions");
+  state.gradient_steps = number<std::int64_t>(checkpoint, "gradient_steps");
+  state.choosing.resume(number<std::uint64_t>(checkpoint, "random.choosing"));
+  state.sampling.resume(number<std::uint64_t>(checkpoint, "random.sampling"));
+  return state;
+}
+
 RunState restore(const SafeTensors& checkpoint, const Config& config, std::uint64_t seed, Learner& learner) {
   if (text(checkpoint, "configuration") != config.text) {
     throw std::runtime_error("it was saved with another configuration; resume with that one, or begin anew");
@@ -91,7 +138,7 @@ RunState restore(const SafeTensors& checkpoint, const Config& config, std::uint6
     throw std::runtime_error(
         fmt::format("it was saved with seed {}, not {}", text(checkpoint, "seed"), seed));
   }
-  learner.restore(checkpoint);
+  learner.resume(read_learner(checkpoint, config.learner, learner.state()));
   const auto best_episodes = number<int>(checkpoint, "best_episodes");
   const Eigen::Index best_size = learner.result().values.size();
   return {.episodes = number<int>(checkpoint, "episodes"),
@@ -104,54 +151,10 @@ RunState restore(const SafeTensors& checkpoint, const Config& config, std::uint6
 
 }  // namespace
 
-void Learner::save(SafeTensors& checkpoint) const {
-  checkpoint.tensors = {tensor_of("online", online_.values),    tensor_of("target", target_.values),
-                        tensor_of("average", average_.values),  tensor_of("adam.mean", adam_.mean),
-                        tensor_of("adam.square", adam_.square), tensor_of("replay", replay_.content())};
-  if (config_.prioritised) {
-    const auto leaves = priorities_.leaves(static_cast<std::size_t>(replay_.size()));
-    checkpoint.tensors.push_back(
-        {.name = "priorities", .shape = {leaves.size()}, .values = {leaves.begin(), leaves.end()}});
-  }
-  checkpoint.metadata["adam.mean_decay"] = exact(adam_.mean_decay);
-  checkpoint.metadata["adam.square_decay"] = exact(adam_.square_decay);
-  checkpoint.metadata["greatest_priority"] = exact(priorities_.greatest());
-  checkpoint.metadata["replay.pushed"] = std::to_string(replay_.pushed());
-  checkpoint.metadata["decisions"] = std::to_string(decisions_);
-  checkpoint.metadata["gradient_steps"] = std::to_string(gradient_steps_);
-  checkpoint.metadata["random.choosing"] = std::to_string(choosing_.state());
-  checkpoint.metadata["random.sampling"] = std::to_string(sampling_.state());
-}
-
-void Learner::restore(const SafeTensors& checkpoint) {
-  const Eigen::Index size = online_.values.size();
-  online_.values = matrix(checkpoint, "online", size, 1);
-  round_online();
-  target_.values = matrix(checkpoint, "target", size, 1);
-  average_.values = matrix(checkpoint, "average", size, 1);
-  adam_.mean = matrix(checkpoint, "adam.mean", size, 1);
-  adam_.square = matrix(checkpoint, "adam.square", size, 1);
-  adam_.mean_decay = real(text(checkpoint, "adam.mean_decay"));
-  adam_.square_decay = real(text(checkpoint, "adam.square_decay"));
-  const auto pushed = number<std::int64_t>(checkpoint, "replay.pushed");
-  const Eigen::Index held = std::min<Eigen::Index>(pushed, config_.replay_size);
-  const Eigen::Index rows = 2 * state_.size() + 3;
-  replay_.restore(pushed, matrix(checkpoint, "replay", rows, held));
-  if (config_.prioritised) {
-    const auto leaves = matrix(checkpoint, "priorities", held, 1);
-    priorities_.restore(std::vector<double>(leaves.data(), leaves.data() + leaves.size()),
-                        real(text(checkpoint, "greatest_priority")));
-  }
-  decisions_ = number<std::int64_t>(checkpoint, "decisions");
-  gradient_steps_ = number<std::int64_t>(checkpoint, "gradient_steps");
-  choosing_.resume(number<std::uint64_t>(checkpoint, "random.choosing"));
-  sampling_.resume(number<std::uint64_t>(checkpoint, "random.sampling"));
-}
-
 void save_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
                      const Learner& learner, const RunState& run) {
   SafeTensors checkpoint;
-  learner.save(checkpoint);
+  add_learner(learner.state(), config.learner, checkpoint);
   checkpoint.metadata["configuration"] = config.text;
   checkpoint.metadata["seed"] = std::to_string(seed);
   checkpoint.metadata["episodes"] = std::to_string(run.episodes);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "training/learner/dqn.hpp"
+#include "training/run/config.hpp"
 
 namespace striker::training {
 

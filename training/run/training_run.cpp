@@ -10,6 +10,8 @@
 
 #include "firmware/host/files.hpp"
 #include "training/run/episode_csv.hpp"
+#include "training/run/evaluation.hpp"
+#include "training/task/episode_numbers.hpp"
 
 namespace striker::training {
 
@@ -20,8 +22,15 @@ constexpr int speed_period = 250;  // episodes
 std::string curve_line(const CurveRow& row) {
   const EpisodeRow& episode = row.episode;
   return fmt::format("{},{},{:.6f},{:.6f},{},{:.6f},{:.6g},{:.6g},{:.6g},{:.6g}\n", episode.episode,
-                     episode.steps, episode.reward, row.moving_average, episode.contact ? 1 : 0,
+                     episode.decisions, episode.reward, row.moving_average, episode.success ? 1 : 0,
                      episode.epsilon, episode.learning_rate, episode.loss, episode.td_error, episode.q);
+}
+
+// On episodes that neither training nor evaluation meets.
+double validation_mean(const Training& training, const Parameters& parameters) {
+  const Config& config = training.config();
+  return mean_reward(config.environments.front(), parameters, training.seed(), first_validation_episode,
+                     config.run.validation_episodes);
 }
 
 // The files of a run, and what is written to them when.
@@ -59,8 +68,8 @@ class RunDirectory {
       }
     }
     curve_.reserve(training.config().run.episodes);
-    decisions_ = training.learner().decisions();
-    gradient_steps_ = training.learner().gradient_steps();
+    decisions_ = training.learner().state().decisions;
+    gradient_steps_ = training.learner().state().gradient_steps;
   }
 
   void add(const CurveRow& row, const Training& training) {
@@ -72,8 +81,7 @@ class RunDirectory {
 
   void evaluate(Training& training) {
     const Parameters parameters = training.learner().result();
-    const double mean = validate(training.config().environments.front(), parameters, training.seed(),
-                                 training.config().run.validation_episodes);
+    const double mean = validation_mean(training, parameters);
     const bool best = training.state().best_episodes == 0 || mean > training.state().best_mean;
     evaluations_.add(fmt::format("{},{:.6f},{}\n", training.episodes(), mean, best ? 1 : 0));
     if (best) {
@@ -111,10 +119,10 @@ class RunDirectory {
 
   void add_speed(const Training& training) {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    const Learner& learner = training.learner();
+    const LearnerState& learner = training.learner().state();
     speed_.add(fmt::format("{},{:.3f},{:.0f},{:.0f}\n", training.episodes(), elapsed_s,
-                           static_cast<double>(learner.decisions() - decisions_) / elapsed_s,
-                           static_cast<double>(learner.gradient_steps() - gradient_steps_) / elapsed_s));
+                           static_cast<double>(learner.decisions - decisions_) / elapsed_s,
+                           static_cast<double>(learner.gradient_steps - gradient_steps_) / elapsed_s));
   }
 
   std::filesystem::path directory_;
@@ -140,26 +148,33 @@ std::map<std::string, std::string> metadata_of(const Training& training, const P
           {"seed", std::to_string(training.seed())}};
 }
 
-std::vector<KickEnv> make_envs(const Config& config) {
-  std::vector<KickEnv> envs;
-  for (const EnvConfig& environment : config.environments) {
-    envs.emplace_back(environment);
+std::vector<AnyEnvironment> make_environments(const Config& config) {
+  std::vector<AnyEnvironment> environments;
+  for (const TaskConfig& task : config.environments) {
+    environments.push_back(make_environment(task));
   }
-  return envs;
+  return environments;
 }
 
 }  // namespace
 
 Training::Training(const Config& config, std::uint64_t seed)
-    : config_(config), seed_(seed), envs_(make_envs(config)), learner_(config, seed) {
+    : config_(config),
+      seed_(seed),
+      environments_(make_environments(config)),
+      learner_(setup_of(config), seed) {
   state_.recent_rewards.reserve(moving_average_span);
 }
 
 CurveRow Training::play_episode() {
-  const std::uint64_t number = training_episodes + static_cast<std::uint64_t>(state_.episodes);
-  KickEnv& env = envs_[number % envs_.size()];
-  env.reset(seed_, number);
-  CurveRow row{.episode = learner_.play(env, state_.episodes)};
+  const std::uint64_t number = first_training_episode + static_cast<std::uint64_t>(state_.episodes);
+  CurveRow row;
+  row.episode = std::visit(
+      [&](auto& env) {
+        env.reset(seed_, number);
+        return learner_.play(env, state_.episodes);
+      },
+      environments_[number % environments_.size()]);
   ++state_.episodes;
   std::vector<double>& recent = state_.recent_rewards;
   if (recent.size() == moving_average_span) {
@@ -185,17 +200,6 @@ void Training::resume(const std::filesystem::path& checkpoint) {
   state_ = load_checkpoint(checkpoint, config_, seed_, learner_);
 }
 
-double validate(const EnvConfig& task, const Parameters& parameters, std::uint64_t seed, int episodes) {
-  KickEnv env(task);
-  Actor actor(parameters.shape());
-  const Choice choose = [&](const KickEnv& seen) { return actor.choose(parameters, seen.features()); };
-  double sum = 0.0;
-  for (int i = 0; i < episodes; ++i) {
-    sum += play(env, seed, validation_episodes + static_cast<std::uint64_t>(i), choose).reward;
-  }
-  return sum / episodes;
-}
-
 Model model_of(const Training& training) {
   const Parameters parameters = training.learner().result();
   return {.parameters = parameters, .metadata = metadata_of(training, parameters, training.episodes())};
@@ -211,7 +215,7 @@ Model best_model_of(const Training& training) {
 }
 
 TrainingResult train_into(const std::filesystem::path& directory, const Config& config, std::uint64_t seed,
-                          bool resume, const Progress& progress) {
+                          bool resume, const TrainingProgress& progress) {
   host::require_writable(directory);
   Training training(config, seed);
   RunDirectory files(directory);
@@ -231,16 +235,16 @@ TrainingResult train_into(const std::filesystem::path& directory, const Config& 
   }
   Model model = model_of(training);
   if (config.run.validation_episodes > 0 && !result.interrupted) {
-    result.mean_reward = fmt::format("{:.3f}", validate(config.environments.front(), model.parameters, seed,
-                                                        config.run.validation_episodes));
-    model.metadata["mean_reward"] = result.mean_reward;
+    const double mean = validation_mean(training, model.parameters);
+    result.mean_reward = mean;
+    model.metadata["mean_reward"] = fmt::format("{:.3f}", mean);
   }
   files.finish(training, model);
   result.episodes = training.episodes();
-  result.decisions = training.learner().decisions();
-  result.gradient_steps = training.learner().gradient_steps();
+  result.decisions = training.learner().state().decisions;
+  result.gradient_steps = training.learner().state().gradient_steps;
   if (training.state().best_episodes > 0) {
-    result.best_mean_reward = fmt::format("{:.3f}", training.state().best_mean);
+    result.best_mean_reward = training.state().best_mean;
   }
   return result;
 }

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "training/learner/dqn.hpp"
 #include "training/model/model.hpp"
 #include "training/run/checkpoint.hpp"
+#include "training/run/config.hpp"
+#include "training/task/environments.hpp"
 
 namespace striker::training {
 
@@ -43,15 +45,10 @@ class Training {
  private:
   Config config_;
   std::uint64_t seed_;
-  std::vector<KickEnv> envs_;
+  std::vector<AnyEnvironment> environments_;
   Learner learner_;
   RunState state_;
 };
-
-// The mean reward of greedy play on `episodes` episodes from the first held-out one on, which neither
-// training nor evaluation meets.
-[[nodiscard]] double validate(const EnvConfig& task, const Parameters& parameters, std::uint64_t seed,
-                              int episodes);
 
 // The model of a training so far, with its metadata but for the mean reward; and the best one of its greedy
 // evaluations, of which there must have been one.
@@ -64,12 +61,12 @@ struct TrainingResult {
   std::int64_t decisions = 0;
   std::int64_t gradient_steps = 0;
   double moving_average = 0.0;
-  std::string mean_reward;  // of the model, on the validation episodes; empty if it was not measured
-  std::string best_mean_reward;
+  std::optional<double> mean_reward;  // of the model, on the validation episodes, if it was measured
+  std::optional<double> best_mean_reward;
 };
 
 // Called after each episode; false ends the training there.
-using Progress = std::function<bool(const CurveRow&)>;
+using TrainingProgress = std::function<bool(const CurveRow&)>;
 
 // Trains into a directory, which is made if it is missing:
 //   model.safetensors      the network at the end
@@ -82,6 +79,6 @@ using Progress = std::function<bool(const CurveRow&)>;
 // Throws std::runtime_error with one line: an unfinished run is there and `resume` is not set, or `resume` is
 // and there is nothing to go on from, or a file is damaged or cannot be written.
 TrainingResult train_into(const std::filesystem::path& directory, const Config& config, std::uint64_t seed,
-                          bool resume, const Progress& progress);
+                          bool resume, const TrainingProgress& progress);
 
 }  // namespace striker::training

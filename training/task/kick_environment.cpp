@@ -2,14 +2,17 @@
 
 #include <cmath>
 
+#include "firmware/policy/policy.hpp"
+#include "sil/world/random_streams.hpp"
+
 namespace striker::training {
 
 namespace {
 
-constexpr std::uint64_t dummies_stream = 105;
+static_assert(sil::kick_decisions == policy::decisions_a_kick, "the firmware counts other decisions down");
 
-std::variant<sil::PlanarWorld, sil::World> make_world(World world) {
-  if (world == World::fast) {
+std::variant<sil::PlanarWorld, sil::World> make_world(Physics physics) {
+  if (physics == Physics::planar) {
     return sil::PlanarWorld(physics_step_s);
   }
   return sil::World(sil::kick_world(physics_step_s));
@@ -17,63 +20,50 @@ std::variant<sil::PlanarWorld, sil::World> make_world(World world) {
 
 }  // namespace
 
-std::vector<SetPoints> kick_actions() {
-  constexpr double steady_m_s = 2.55;
-  return {{steady_m_s, steady_m_s}, {0.0, 0.0}, {-steady_m_s, -steady_m_s}};
-}
+KickEnvironment::KickEnvironment(const TaskConfig& task)
+    : config_(task),
+      world_(make_world(task.physics)),
+      episode_(task.rules),
+      dummies_(0, 0, sil::random_stream::dummies),
+      features_(task.inputs.size()) {}
 
-int mirrored_action(const std::vector<SetPoints>& actions, int action) {
-  const SetPoints& image = actions[static_cast<std::size_t>(action)];
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    if (actions[i].left_m_s == image.right_m_s && actions[i].right_m_s == image.left_m_s) {
-      return static_cast<int>(i);
-    }
-  }
-  return -1;
-}
-
-KickEnv::KickEnv(const EnvConfig& config)
-    : config_(config),
-      world_(make_world(config.world)),
-      episode_(config.rules),
-      dummies_(0, 0, dummies_stream),
-      features_(config.inputs.size()) {}
-
-void KickEnv::reset(std::uint64_t seed, std::uint64_t episode) {
+void KickEnvironment::reset(std::uint64_t seed, std::uint64_t episode) {
   const sil::KickStart start = sil::draw_kick(seed, episode, config_.pose, config_.rules);
   std::visit([&](auto& world) { episode_.begin(world, start); }, world_);
   last_ball_m_ = sil::ball_before(start, sil::decision_period_s).position_m;
-  dummies_ = sil::Random(seed, episode, dummies_stream);
+  dummies_ = sil::Random(seed, episode, sil::random_stream::dummies);
   decisions_ = 0;
-  history_.begin(look());
-  see(config_.inputs, history_, in_mirror(), dummies_, features_);
+  history_.begin(observed());
+  write_features(config_.inputs, history_, in_mirror(), dummies_, features_);
 }
 
-StepResult KickEnv::step(int action) {
+StepResult KickEnvironment::step(int action) {
   last_ball_m_ = history_.ago(0).field.ball.position_m;
-  const bool before = outcome().contact;
-  const auto [left_m_s, right_m_s] = config_.actions[static_cast<std::size_t>(action)];
-  drive(in_mirror() ? SetPoints{right_m_s, left_m_s} : SetPoints{left_m_s, right_m_s}, steps_per_decision);
+  const bool before = success();
+  const SetPoint& set_point = config_.actions[static_cast<std::size_t>(action)];
+  drive(in_mirror() ? mirrored(set_point) : set_point, steps_per_decision);
   StepResult result;
   result.reward = episode_.end_decision();
   ++decisions_;
-  history_.add(look());
-  see(config_.inputs, history_, in_mirror(), dummies_, features_);
-  result.contact = outcome().contact && !before;
+  history_.add(observed());
+  write_features(config_.inputs, history_, in_mirror(), dummies_, features_);
+  result.success = success() && !before;
   result.last = decisions_ == sil::kick_decisions;
-  result.end = result.last || (result.contact && !config_.goes_on);
+  result.end = result.last || (result.success && !config_.goes_on);
   return result;
 }
 
-void KickEnv::coast() {
-  drive({}, 2 * steps_per_decision);
+void KickEnvironment::finish() {
+  if (!outcome().ball_measured) {
+    drive({}, 2 * steps_per_decision);
+  }
 }
 
-void KickEnv::drive(const SetPoints& set_points, int steps) {
+void KickEnvironment::drive(const SetPoint& set_point, int steps) {
   std::visit(
       [&](auto& world) {
-        world.servo_wheel(0, sil::Wheel::left, set_points.left_m_s, torque_ceiling_Nm);
-        world.servo_wheel(0, sil::Wheel::right, set_points.right_m_s, torque_ceiling_Nm);
+        world.servo_wheel(0, sil::Wheel::left, set_point.left_m_s, forward_spec.max_wheel_torque_Nm);
+        world.servo_wheel(0, sil::Wheel::right, set_point.right_m_s, forward_spec.max_wheel_torque_Nm);
         for (int i = 0; i < steps; ++i) {
           episode_.step(world);
         }
@@ -82,12 +72,12 @@ void KickEnv::drive(const SetPoints& set_points, int steps) {
   simulated_s_ += physics_step_s * steps;
 }
 
-Sight KickEnv::look() const {
-  Sight sight;
-  sight.decisions_left = sil::kick_decisions - decisions_;
+DecisionState KickEnvironment::observed() const {
+  DecisionState now;
+  now.decisions_left = sil::kick_decisions - decisions_;
   std::visit(
       [&](const auto& world) {
-        Observation& seen = sight.field;
+        Observation& seen = now.field;
         seen = {.robot = world.robot_pose(0),
                 .robot_velocity_m_s = world.robot_velocity_m_s(0),
                 .ball = world.ball()};
@@ -101,20 +91,8 @@ Sight KickEnv::look() const {
         }
       },
       world_);
-  sight.rcs = rcs_state(sight.field, config_.equations);
-  return sight;
-}
-
-sil::KickOutcome play(KickEnv& env, std::uint64_t seed, std::uint64_t episode, const Choice& choose) {
-  env.reset(seed, episode);
-  bool last = false;
-  while (!last && !env.outcome().ball_measured) {
-    last = env.step(choose(env)).last;
-  }
-  if (!env.outcome().ball_measured) {
-    env.coast();
-  }
-  return env.outcome();
+  now.rcs = rcs_state(now.field, config_.equations);
+  return now;
 }
 
 }  // namespace striker::training

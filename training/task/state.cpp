@@ -12,7 +12,7 @@ constexpr double um_per_m = 1e6;
 constexpr double mm_per_m = 1e3;
 constexpr double counts_per_rad = 32768.0 / angle_unit_rad;
 constexpr double field_unit_m = 4.0;  // about half the field's length
-constexpr double episode_unit = 40.0;
+constexpr double episode_unit = policy::decisions_a_kick;
 
 // In the order of Element.
 constexpr std::array<ElementFacts, 18> facts = {{
@@ -36,14 +36,30 @@ constexpr std::array<ElementFacts, 18> facts = {{
     {"dummy", 1.0, 0.0, 1.0F},
 }};
 
+// The firmware computes these itself: the numbers in an exported header are its own, and so are the mirror's signs.
+constexpr bool is_the_firmwares(Element element, policy::StateElement of_firmware) {
+  return static_cast<int>(element) == static_cast<int>(of_firmware) &&
+         (facts[static_cast<std::size_t>(element)].mirror < 0.0F) == policy::changes_sign(of_firmware) &&
+         facts[static_cast<std::size_t>(element)].raw_per_value != 0.0;
+}
+static_assert(is_the_firmwares(Element::ball_x, policy::StateElement::ball_x));
+static_assert(is_the_firmwares(Element::ball_y, policy::StateElement::ball_y));
+static_assert(is_the_firmwares(Element::robot_speed, policy::StateElement::robot_speed));
+static_assert(is_the_firmwares(Element::ball_vx, policy::StateElement::ball_vx));
+static_assert(is_the_firmwares(Element::ball_vy, policy::StateElement::ball_vy));
+static_assert(is_the_firmwares(Element::ball_angle, policy::StateElement::ball_angle));
+static_assert(is_the_firmwares(Element::decisions_left, policy::StateElement::decisions_left));
+static_assert(facts[static_cast<std::size_t>(Element::decisions_left) + 1].raw_per_value == 0.0,
+              "the controller has seven elements");
+
 double direction_rad(sil::Vec2 velocity_m_s) {
   const bool at_rest = std::hypot(velocity_m_s.x, velocity_m_s.y) < rest_speed_m_s;
   return at_rest ? 0.0 : std::atan2(velocity_m_s.y, velocity_m_s.x);
 }
 
-double value_of(Element element, const Sight& sight, sil::Random& dummies) {
-  const RcsState& rcs = sight.rcs;
-  const Observation& field = sight.field;
+double value_of(Element element, const DecisionState& state, sil::Random& dummies) {
+  const RcsState& rcs = state.rcs;
+  const Observation& field = state.field;
   switch (element) {
     case Element::ball_x:
       return rcs.ball_x_m;
@@ -58,7 +74,7 @@ double value_of(Element element, const Sight& sight, sil::Random& dummies) {
     case Element::ball_angle:
       return rcs.ball_angle_rad;
     case Element::decisions_left:
-      return sight.decisions_left;
+      return state.decisions_left;
     case Element::field_robot_x:
       return field.robot.x_m;
     case Element::field_robot_y:
@@ -143,13 +159,13 @@ StateInputs acs_inputs() {
   return range(Element::field_robot_x, Element::field_ball_angle);
 }
 
-void History::add(const Sight& sight) {
-  std::shift_right(sights_.begin(), sights_.end(), 1);
-  sights_.front() = sight;
+void History::add(const DecisionState& newest) {
+  std::shift_right(states_.begin(), states_.end(), 1);
+  states_.front() = newest;
 }
 
-void see(const StateInputs& inputs, const History& history, bool mirror, sil::Random& dummies,
-         Features& features) {
+void write_features(const StateInputs& inputs, const History& history, bool mirror, sil::Random& dummies,
+                    Features& features) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto [element, ago] = inputs[i];
     const ElementFacts& about = facts_of(element);

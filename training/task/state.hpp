@@ -16,7 +16,9 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/policy/policy.hpp"
 #include "sil/world/random.hpp"
+#include "sil/world/robot_specs.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::training {
@@ -47,13 +49,14 @@ inline constexpr double rest_speed_m_s = 0.02;
 [[nodiscard]] double wrap_angle_rad(double angle_rad);  // into (-pi, pi]
 
 // All that one decision knows.
-struct Sight {
+struct DecisionState {
   RcsState rcs;
   Observation field;
   int decisions_left = 0;  // 40 at the first decision of an episode, 0 after its last
 };
 
-// The first seven are the controller's (core::StateElement, in its order); the rest is for experiments.
+// The first seven are the controller's, policy::StateElement in its order (state.cpp checks it against the firmware's
+// own); the rest is for experiments.
 enum class Element : std::uint8_t {
   ball_x,
   ball_y,
@@ -84,7 +87,7 @@ struct ElementFacts {
 };
 
 inline constexpr double position_unit_m = 2.0;
-inline constexpr double speed_unit_m_s = 2.55;
+inline constexpr double speed_unit_m_s = sil::robot_spec(sil::Role::forward).max_rim_speed_m_s;
 inline constexpr double angle_unit_rad = 3.14159265358979323846;
 
 [[nodiscard]] const ElementFacts& facts_of(Element element);
@@ -96,30 +99,32 @@ struct StateInput {
   int decisions_ago = 0;  // 0 to greatest_look_back
   bool operator==(const StateInput&) const = default;
 };
-inline constexpr int greatest_look_back = 4;  // as the firmware's
+inline constexpr int greatest_look_back = policy::greatest_look_back;
 
 using StateInputs = std::vector<StateInput>;
 
 [[nodiscard]] StateInputs rcs_inputs();  // the paper's RCS: six
 [[nodiscard]] StateInputs acs_inputs();  // the paper's ACS: ten
 
-// The last decisions' sights, the newest first.
+// What the last decisions knew, the newest first.
 class History {
  public:
-  void begin(const Sight& first) { sights_.fill(first); }
-  void add(const Sight& sight);
-  [[nodiscard]] const Sight& ago(int decisions) const { return sights_[static_cast<std::size_t>(decisions)]; }
+  void begin(const DecisionState& first) { states_.fill(first); }
+  void add(const DecisionState& newest);
+  [[nodiscard]] const DecisionState& ago(int decisions) const {
+    return states_[static_cast<std::size_t>(decisions)];
+  }
 
  private:
-  std::array<Sight, greatest_look_back + 1> sights_{};
+  std::array<DecisionState, greatest_look_back + 1> states_{};
 };
 
 using Features = Eigen::VectorXf;  // one value an input
 
 // Writes into `features`, which has the inputs' size already; `mirror`: as seen in a mirror along the
 // heading.
-void see(const StateInputs& inputs, const History& history, bool mirror, sil::Random& dummies,
-         Features& features);
+void write_features(const StateInputs& inputs, const History& history, bool mirror, sil::Random& dummies,
+                    Features& features);
 
 // The same situation seen in a mirror along the heading is the features times these factors, element by
 // element. The task is symmetric: the reward stays.

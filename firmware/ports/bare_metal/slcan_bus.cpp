@@ -1,4 +1,9 @@
+// CAN over a serial port. No bus is behind it that could be off, and no flow control that could stop it: the
+// transmitter empties itself, so a frame waits for its own letters alone, 220 us at 1 Mbaud. That wait is
+// bounded: a transmitter that takes nothing for a whole tick is broken, and the rest of the line is dropped.
+// A ring would save the wait, but cost RAM that an image for a real bus does not need.
 #include "firmware/ports/bare_metal/can_bus.hpp"
+#include "firmware/ports/bare_metal/clock.hpp"
 #include "firmware/ports/bare_metal/slcan.hpp"
 #include "firmware/ports/bare_metal/uart.hpp"
 
@@ -7,6 +12,18 @@ namespace striker::bare_metal {
 namespace {
 
 SlcanReader reader;
+bool line_is_open = false;  // a line was broken off
+
+// False after a tick, from its beginning to its end, without room.
+bool put_in_time(char letter) {
+  const std::uint32_t begin = ticks();
+  while (!uart::try_put(letter)) {
+    if (ticks() - begin > 1) {
+      return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -15,19 +32,32 @@ void start_can() {
 }
 
 bool receive_can(can::Frame& frame) {
-  while (uart::has_letter()) {
-    if (reader.take(uart::take_letter(), frame)) {
+  char letter = 0;
+  while (uart::try_take(letter)) {
+    if (reader.take(letter, frame)) {
       return true;
     }
   }
   return false;
 }
 
-void send_can(const can::Frame& frame) {
+bool try_send_can(const can::Frame& frame) {
+  if (line_is_open && !put_in_time('\r')) {
+    return false;
+  }
   const SlcanLine line = slcan_line(frame);
   for (std::size_t i = 0; i < line.length; ++i) {
-    uart::put_letter(line.text[i]);
+    line_is_open = true;
+    if (!put_in_time(line.text[i])) {
+      return false;
+    }
   }
+  line_is_open = false;
+  return true;
+}
+
+can::BusHealth can_health() {
+  return can::BusHealth::active;
 }
 
 }  // namespace striker::bare_metal

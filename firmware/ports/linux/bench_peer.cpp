@@ -36,7 +36,7 @@ void BenchPeer::take(const can::Frame& frame) {
     wheels_.left_mm_s = follow(wheels_.left_mm_s, 2 * command.left_set_point_2mm_s);
     wheels_.right_mm_s = follow(wheels_.right_mm_s, 2 * command.right_set_point_2mm_s);
   } else if (can::is<can::Status>(frame) && can::receive(frame, any, status) == can::Verdict::accepted) {
-    state_ = static_cast<can::State>(status.state);
+    state_ = static_cast<core::State>(status.state);
   }
 }
 
@@ -50,8 +50,8 @@ void BenchPeer::send_picture(std::int64_t now_ns) {
 }
 
 void BenchPeer::operate(std::int64_t now_ns) {
-  if (state_ == can::State::standby || state_ == can::State::fault) {
-    const can::Mode mode = state_ == can::State::fault ? can::Mode::clear : can::Mode::arm;
+  if (state_ == core::State::standby || state_ == core::State::fault) {
+    const can::Mode mode = state_ == core::State::fault ? can::Mode::clear : can::Mode::arm;
     bus_->send_to_controller(
         can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, mode_counter_), now_ns);
   }

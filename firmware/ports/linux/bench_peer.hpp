@@ -4,6 +4,7 @@
 #pragma once
 
 #include "firmware/can/codec.hpp"
+#include "firmware/core/state.hpp"
 #include "firmware/ports/linux/in_process_bus.hpp"
 
 namespace striker::linux_port {
@@ -23,7 +24,7 @@ class BenchPeer {
   InProcessBus* bus_;
   std::uint32_t tick_ = 0;
   can::WheelState wheels_;
-  can::State state_ = can::State::boot;
+  core::State state_ = core::State::boot;
   can::SendCounter wheel_counter_;
   can::SendCounter pose_counter_;
   can::SendCounter ball_counter_;

@@ -2,14 +2,21 @@
 // writer and one reader each, without locks. A full ring drops the frame, as a full socket does.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <optional>
 
-#include "firmware/ports/linux/frame_bus.hpp"
+#include "firmware/loop/bus.hpp"
+#include "firmware/ports/linux/frame_batch.hpp"
 
 namespace striker::linux_port {
+
+struct StampedFrame {
+  can::Frame frame;
+  std::int64_t received_ns = 0;  // CLOCK_MONOTONIC, when the host had it
+};
 
 // One thread calls `push`, one calls `pop`.
 class FrameRing {
@@ -40,30 +47,31 @@ class FrameRing {
   alignas(64) std::atomic<std::size_t> end_ = 0;
 };
 
-// The controller's end is the FrameBus; the other end has functions of its own.
-class InProcessBus final : public FrameBus {
+// The controller's end is the loop's bus; the other end has functions of its own.
+class InProcessBus {
  public:
-  std::size_t send(std::span<const can::Frame> frames) override {
-    std::size_t dropped = 0;
+  void poll() {}
+  std::size_t try_send(std::span<const can::Frame> frames) {
+    std::size_t taken = 0;
     for (const can::Frame& frame : frames) {
-      dropped += from_controller_.push({frame, 0}) ? 0 : 1;
+      taken += from_controller_.push({frame, 0}) ? 1 : 0;
     }
-    return dropped;
+    return taken;
   }
 
-  std::size_t receive(std::span<StampedFrame> frames) override {
-    std::size_t count = 0;
-    while (count < frames.size()) {
-      const auto frame = to_controller_.pop();
-      if (!frame) {
+  loop::Received<std::int64_t> receive(std::size_t most) {
+    batch_.clear();
+    for (std::size_t i = 0; i < std::min<std::size_t>(most, greatest_frames_per_tick); ++i) {
+      const auto stamped = to_controller_.pop();
+      if (!stamped) {
         break;
       }
-      frames[count++] = *frame;
+      batch_.add(stamped->frame, stamped->received_ns);
     }
-    return count;
+    return batch_.received();
   }
 
-  bool take_bus_off() override { return false; }
+  [[nodiscard]] can::BusHealth health() const { return can::BusHealth::active; }
 
   bool send_to_controller(const can::Frame& frame, std::int64_t now_ns) {
     return to_controller_.push({frame, now_ns});
@@ -76,6 +84,9 @@ class InProcessBus final : public FrameBus {
  private:
   FrameRing to_controller_;
   FrameRing from_controller_;
+  FrameBatch batch_;
 };
+
+static_assert(loop::Bus<InProcessBus, std::int64_t>);
 
 }  // namespace striker::linux_port

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/host/files.hpp"
+#include "firmware/host/version.hpp"
 
 namespace striker::linux_port {
 
@@ -65,23 +66,26 @@ std::string summary(const LoopTiming& timing) {
 
 void write_json(const LoopTiming& timing, const std::vector<std::string>& settings,
                 const std::filesystem::path& file) {
-  const nlohmann::ordered_json json = {
-      {"kernel", kernel()},
-      {"settings", settings},
-      {"ticks", timing.ticks},
-      {"missed_periods", timing.missed_periods},
-      {"longest_stall_periods", timing.longest_stall_periods},
-      {"received_frames", timing.received_frames},
-      {"full_ticks", timing.full_ticks},
-      {"dropped_frames", timing.dropped_frames},
-      {"fault", can::name_of(can::fault_names, static_cast<std::int32_t>(timing.fault))},
-      {"minor_faults", timing.resources.minor_faults},
-      {"major_faults", timing.resources.major_faults},
-      {"voluntary_switches", timing.resources.voluntary_switches},
-      {"involuntary_switches", timing.resources.involuntary_switches},
-      {"lateness", histogram_json(timing.lateness)},
-      {"execution", histogram_json(timing.execution)},
-      {"receive_to_command", histogram_json(timing.latency)}};
+  const nlohmann::ordered_json json = {{"program", "striker-firmware"},
+                                       {"version", host::version()},
+                                       {"git_hash", host::git_hash()},
+                                       {"build_type", host::build_type()},
+                                       {"kernel", kernel()},
+                                       {"settings", settings},
+                                       {"ticks", timing.ticks},
+                                       {"missed_periods", timing.missed_periods},
+                                       {"longest_stall_periods", timing.longest_stall_periods},
+                                       {"received_frames", timing.received_frames},
+                                       {"full_ticks", timing.full_ticks},
+                                       {"dropped_frames", timing.dropped_frames},
+                                       {"fault", core::name_of(timing.fault)},
+                                       {"minor_faults", timing.resources.minor_faults},
+                                       {"major_faults", timing.resources.major_faults},
+                                       {"voluntary_switches", timing.resources.voluntary_switches},
+                                       {"involuntary_switches", timing.resources.involuntary_switches},
+                                       {"lateness", histogram_json(timing.lateness)},
+                                       {"execution", histogram_json(timing.execution)},
+                                       {"receive_to_command", histogram_json(timing.latency)}};
   host::write_file(file, json.dump(1) + '\n');
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/can/messages.hpp"
+#include "firmware/core/state.hpp"
 #include "firmware/ports/linux/latency_histogram.hpp"
 
 namespace striker::linux_port {
@@ -33,8 +33,8 @@ struct LoopTiming {
   std::uint64_t received_frames = 0;
   std::uint64_t full_ticks = 0;  // that took as many frames as a tick may
   std::uint64_t dropped_frames = 0;
-  can::Fault fault = can::Fault::none;  // the last one latched
-  ResourceUse resources;                // from the first deadline to the last
+  core::Fault fault = core::Fault::none;  // the last one latched
+  ResourceUse resources;                  // from the first deadline to the last
 };
 
 // One line for a terminal.

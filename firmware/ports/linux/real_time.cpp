@@ -91,9 +91,9 @@ Granted ask_for_real_time(const RealTimeSettings& settings) {
   if (settings.cpu >= 0) {
     asked.note(run_on(settings.cpu), fmt::format("processor {}", settings.cpu));
   }
-  if (settings.policy == Policy::fifo) {
+  if (settings.scheduler == Scheduler::fifo) {
     asked.note(set_fifo(settings.priority), fmt::format("SCHED_FIFO priority {}", settings.priority));
-  } else if (settings.policy == Policy::deadline) {
+  } else if (settings.scheduler == Scheduler::deadline) {
     asked.note(set_deadline(settings.runtime_ns, settings.period_ns),
                fmt::format("SCHED_DEADLINE {} us in every {} us", settings.runtime_ns / 1000,
                            settings.period_ns / 1000));
@@ -112,7 +112,7 @@ void stay_below(const RealTimeSettings& settings) {
   if (settings.cpu >= 0) {
     run_on(settings.cpu);
   }
-  if (settings.policy != Policy::other && settings.priority > 1) {
+  if (settings.scheduler != Scheduler::other && settings.priority > 1) {
     set_fifo(settings.priority - 1);
   }
 }

@@ -7,10 +7,10 @@
 
 namespace striker::linux_port {
 
-enum class Policy : std::uint8_t { fifo, deadline, other };
+enum class Scheduler : std::uint8_t { fifo, deadline, other };
 
 struct RealTimeSettings {
-  Policy policy = Policy::fifo;
+  Scheduler scheduler = Scheduler::fifo;
   int priority = 80;            // SCHED_FIFO
   std::int64_t runtime_ns = 0;  // SCHED_DEADLINE: reserved in every period
   std::int64_t period_ns = 0;   // SCHED_DEADLINE

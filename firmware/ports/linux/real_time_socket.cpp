@@ -46,25 +46,26 @@ RealTimeSocket::RealTimeSocket(const std::string& interface, std::span<const std
   }
 }
 
-std::size_t RealTimeSocket::send(std::span<const can::Frame> frames) {
+std::size_t RealTimeSocket::try_send(std::span<const can::Frame> frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     slots_[i].wire = host::to_wire(frames[i]);
     messages_[i].msg_hdr.msg_control = nullptr;
     messages_[i].msg_hdr.msg_controllen = 0;
   }
-  std::size_t dropped = 0;
+  std::size_t taken = 0;
   for (std::size_t begin = 0; begin < frames.size();) {
     const int sent =
         sendmmsg(socket_.handle(), &messages_[begin], static_cast<unsigned>(frames.size() - begin), 0);
     if (sent > 0) {
+      taken += static_cast<std::size_t>(sent);
       begin += static_cast<std::size_t>(sent);
+      gone_ = false;
       continue;
     }
     gone_ = gone_ || errno == ENODEV || errno == ENXIO || errno == ENETDOWN;
-    ++dropped;
     ++begin;
   }
-  return dropped;
+  return taken;
 }
 
 void RealTimeSocket::read_calendar() {
@@ -73,28 +74,22 @@ void RealTimeSocket::read_calendar() {
   }
 }
 
-std::size_t RealTimeSocket::receive(std::span<StampedFrame> frames) {
+loop::Received<std::int64_t> RealTimeSocket::receive(std::size_t most) {
   read_calendar();
-  const std::size_t wanted = std::min(frames.size(), slots_.size());
+  const std::size_t wanted = std::min(most, slots_.size());
   for (std::size_t i = 0; i < wanted; ++i) {
     messages_[i].msg_hdr.msg_control = slots_[i].control.data();
     messages_[i].msg_hdr.msg_controllen = slots_[i].control.size();
   }
   const int received =
       recvmmsg(socket_.handle(), messages_.data(), static_cast<unsigned>(wanted), MSG_DONTWAIT, nullptr);
-  std::size_t count = 0;
+  batch_.clear();
   for (std::size_t i = 0; received > 0 && i < static_cast<std::size_t>(received); ++i) {
     if (const auto frame = socket_.accept(slots_[i].wire)) {
-      frames[count++] = {*frame, stamp_ns(messages_[i].msg_hdr) - calendar_ns_};
+      batch_.add(*frame, stamp_ns(messages_[i].msg_hdr) - calendar_ns_);
     }
   }
-  return count;
-}
-
-bool RealTimeSocket::take_bus_off() {
-  const bool gone = gone_;
-  gone_ = false;
-  return socket_.take_bus_off() || gone;
+  return batch_.received();
 }
 
 }  // namespace striker::linux_port

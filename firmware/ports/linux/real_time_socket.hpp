@@ -9,24 +9,27 @@
 #include <string>
 
 #include "firmware/host/can_socket.hpp"
-#include "firmware/ports/linux/frame_bus.hpp"
+#include "firmware/loop/bus.hpp"
+#include "firmware/ports/linux/frame_batch.hpp"
 
 namespace striker::linux_port {
 
-class RealTimeSocket final : public FrameBus {
+class RealTimeSocket {
  public:
   // Throws as host::CanSocket does.
   RealTimeSocket(const std::string& interface, std::span<const std::uint16_t> identifiers);
 
+  void poll() {}
+
   // A bus that is off, a full queue or an interface that has gone drop frames; the last also counts as a bus
-  // that has gone off.
-  std::size_t send(std::span<const can::Frame> frames) override;
+  // that has gone off, until a frame passes again.
+  std::size_t try_send(std::span<const can::Frame> frames);
 
-  // Stamps are the kernel's. It stamps with the calendar's clock: for about a second after that was set they
-  // may be off by as much.
-  std::size_t receive(std::span<StampedFrame> frames) override;
+  // The kernel stamps the frames. It does so with the calendar's clock: for about a second after that was
+  // set it may be off by as much.
+  loop::Received<std::int64_t> receive(std::size_t most);
 
-  bool take_bus_off() override;
+  [[nodiscard]] can::BusHealth health() const { return gone_ ? can::BusHealth::bus_off : socket_.health(); }
 
  private:
   struct Slot {
@@ -42,7 +45,10 @@ class RealTimeSocket final : public FrameBus {
   std::array<mmsghdr, greatest_frames_per_tick> messages_{};
   std::int64_t calendar_ns_ = 0;  // CLOCK_REALTIME less CLOCK_MONOTONIC
   std::uint32_t receptions_ = 0;
+  FrameBatch batch_;
   bool gone_ = false;
 };
+
+static_assert(loop::Bus<RealTimeSocket, std::int64_t>);
 
 }  // namespace striker::linux_port

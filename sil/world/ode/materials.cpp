@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "sil/world/physics_constants.hpp"
+
 namespace striker::sil {
 namespace {
 
@@ -14,13 +16,13 @@ struct Material {
 // In the order of Pair. Where AI Soccer leaves mu or bounce out, the defaults of Webots hold: 1 and 0.5.
 constexpr std::array<Material, pair_count> materials = {{
     {.mu = 0.0, .bounce = 0.0, .softness = {.erp = 0.15, .cfm = 1e-5}},  // floor_body: also the skids
-    {.mu = 3.0, .bounce = 0.0, .softness = {.erp = 0.15, .cfm = 1e-5}},  // floor_wheel
-    {.mu = 0.1, .bounce = 0.0, .softness = {.erp = 0.15, .cfm = 1e-5}},  // floor_ball
-    {.mu = 1.0, .bounce = 0.0, .softness = {.erp = 0.0, .cfm = 1e-5}},   // wall_body
-    {.mu = 1.0, .bounce = 0.75, .softness = {.erp = 1.0, .cfm = 0.0}},   // wall_ball
-    {.mu = 1.0, .bounce = 0.25, .softness = {.erp = 0.0, .cfm = 1e-7}},  // body_body
-    {.mu = 1.0, .bounce = 0.5, .softness = {.erp = 0.15, .cfm = 1e-5}},  // goalkeeper_ball
-    {.mu = 1.0, .bounce = 0.8, .softness = {.erp = 0.15, .cfm = 1e-5}},  // body_ball
+    {.mu = tyre_friction, .bounce = 0.0, .softness = {.erp = 0.15, .cfm = 1e-5}},  // floor_wheel
+    {.mu = 0.1, .bounce = 0.0, .softness = {.erp = 0.15, .cfm = 1e-5}},            // floor_ball
+    {.mu = 1.0, .bounce = 0.0, .softness = {.erp = 0.0, .cfm = 1e-5}},             // wall_body
+    {.mu = 1.0, .bounce = 0.75, .softness = {.erp = 1.0, .cfm = 0.0}},             // wall_ball
+    {.mu = 1.0, .bounce = 0.25, .softness = {.erp = 0.0, .cfm = 1e-7}},            // body_body
+    {.mu = 1.0, .bounce = 0.5, .softness = {.erp = 0.15, .cfm = 1e-5}},            // goalkeeper_ball
+    {.mu = 1.0, .bounce = 0.8, .softness = {.erp = 0.15, .cfm = 1e-5}},            // body_ball
 }};
 
 constexpr double bounce_threshold_m_s = 0.01;

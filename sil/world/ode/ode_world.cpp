@@ -5,11 +5,10 @@
 
 #include "sil/world/field_specs.hpp"
 #include "sil/world/ode/materials.hpp"
+#include "sil/world/physics_constants.hpp"
 
 namespace striker::sil {
 namespace {
-
-constexpr double kept_after_1_s = 0.8;
 
 void init_ode() {
   static const bool ready = dInitODE2(0) != 0;

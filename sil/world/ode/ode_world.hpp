@@ -6,10 +6,8 @@
 
 namespace striker::sil {
 
-inline constexpr double gravity_m_s2 = 9.81;
-
-// Damping: the share of its linear and angular velocity that a body keeps in a step. Of 1 s it keeps 0.8. ODE
-// damps last: a body moves with the solved velocity, then loses this share of it.
+// Damping: the share of its linear and angular velocity that a body keeps in a step. ODE damps last: a body moves with
+// the solved velocity, then loses the rest of it.
 [[nodiscard]] double kept_in_step(double step_s);
 
 // Worlds that one process steps in several threads at once need a job queue each: the one that ODE gives them

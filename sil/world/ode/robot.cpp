@@ -5,6 +5,7 @@
 
 #include "sil/world/ode/materials.hpp"
 #include "sil/world/ode/ode_world.hpp"
+#include "sil/world/physics_constants.hpp"
 #include "sil/world/robot_specs.hpp"
 
 namespace striker::sil {

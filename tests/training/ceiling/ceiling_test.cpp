@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sil/world/random.hpp"
+#include "training/ceiling/ceiling_report.hpp"
 #include "training/ceiling/ceiling_run.hpp"
 
 namespace striker::training {
@@ -18,8 +19,9 @@ const Reachable& reachable() {
   return states;
 }
 
-sil::KickOutcome replayed(KickEnv& env, std::uint64_t seed, std::uint64_t episode, const Actions& actions) {
-  return play(env, seed, episode, [&actions](const KickEnv& seen) -> int {
+sil::KickOutcome replayed(KickEnvironment& env, std::uint64_t seed, std::uint64_t episode,
+                          const ActionSequence& actions) {
+  return play(env, seed, episode, [&actions](const KickEnvironment& seen) -> int {
     return actions.at(static_cast<std::size_t>(sil::kick_decisions - seen.decisions_left()));
   });
 }
@@ -30,11 +32,11 @@ constexpr double grid_loss = 0.1;
 TEST(Ceiling, TheFastWorldGivesExactlyWhatWasFound) {
   CeilingSearch search(reachable());
   for (const sil::PoseMode pose : {sil::PoseMode::origin, sil::PoseMode::anywhere}) {
-    KickEnv env({.world = World::fast, .pose = pose});
+    KickEnvironment env({.physics = Physics::planar, .pose = pose});
     int contacts = 0;
     for (std::uint64_t i = 0; i < 200; ++i) {
       const Ceiling ceiling = search.search(sil::draw_kick(21, i, pose));
-      for (const Found& found : {ceiling.best, ceiling.safe}) {
+      for (const FoundSequence& found : {ceiling.best, ceiling.safe}) {
         const sil::KickOutcome outcome = replayed(env, 21, i, found.actions);
         EXPECT_NEAR(outcome.reward, found.reward, 1e-9) << i;
         EXPECT_EQ(outcome.contact, found.contact_step >= 0) << i;
@@ -51,7 +53,7 @@ TEST(Ceiling, TheFastWorldGivesExactlyWhatWasFound) {
 // One of the two at least: an edge may fall differently there.
 TEST(Ceiling, TheFullWorldGivesWhatWasFound) {
   CeilingSearch search(reachable());
-  KickEnv env({.world = World::full});
+  KickEnvironment env({.physics = Physics::full});
   int edges = 0;
   for (std::uint64_t i = 0; i < 60; ++i) {
     const Ceiling ceiling = search.search(sil::draw_kick(22, i, sil::PoseMode::origin));
@@ -66,7 +68,7 @@ TEST(Ceiling, TheFullWorldGivesWhatWasFound) {
 
 TEST(Ceiling, NoRandomSequenceIsAboveIt) {
   CeilingSearch search(reachable());
-  KickEnv env({.world = World::fast});
+  KickEnvironment env({.physics = Physics::planar});
   int contacts = 0;
   for (std::uint64_t i = 0; i < 60; ++i) {
     const double ceiling = search.search(sil::draw_kick(23, i, sil::PoseMode::origin)).best.reward;
@@ -76,7 +78,7 @@ TEST(Ceiling, NoRandomSequenceIsAboveIt) {
       const std::uint64_t longest = std::uint64_t{1} << (2 * (k % 3));
       std::uint64_t held = 0;
       int action = 0;
-      const sil::KickOutcome outcome = play(env, 23, i, [&](const KickEnv&) {
+      const sil::KickOutcome outcome = play(env, 23, i, [&](const KickEnvironment&) {
         if (held-- == 0) {
           held = random.below(longest);
           action = static_cast<int>(random.below(3));

@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "sil/world/random.hpp"
+#include "training/task/episode_numbers.hpp"
 
 namespace striker::training {
 namespace {
 
-double mean_reward(KickEnv& env, std::uint64_t seed, std::uint64_t first, int episodes,
-                   const std::function<Choice(std::uint64_t)>& choice_of) {
+double mean_reward(KickEnvironment& env, std::uint64_t seed, std::uint64_t first, int episodes,
+                   const std::function<ActionRule(std::uint64_t)>& choice_of) {
   double sum = 0.0;
   for (int i = 0; i < episodes; ++i) {
     const std::uint64_t episode = first + static_cast<std::uint64_t>(i);
@@ -21,7 +22,7 @@ double mean_reward(KickEnv& env, std::uint64_t seed, std::uint64_t first, int ep
 }
 
 TEST(Rivals, AreWorthWhatTheirSkillSays) {
-  KickEnv env({.world = World::fast});
+  KickEnvironment env({.physics = Physics::planar});
   const auto mean_of = [&env](Rival rival) {
     return mean_reward(env, 31, 0, 1'000,
                        [rival](std::uint64_t episode) { return rule_of(rival, 31, episode); });
@@ -36,7 +37,7 @@ TEST(Rivals, AreWorthWhatTheirSkillSays) {
 }
 
 TEST(Rivals, ThePlannerGetsWhatItPlans) {
-  KickEnv env({.world = World::fast});
+  KickEnvironment env({.physics = Physics::planar});
   int contacts = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
     const BallTrack track = ball_track(sil::draw_kick(32, i, sil::PoseMode::origin));
@@ -51,8 +52,8 @@ TEST(Rivals, ThePlannerGetsWhatItPlans) {
 
 TEST(Rivals, TheInterceptorsParametersAreTheBestOfTheSearch) {
   constexpr std::uint64_t seed = 1;
-  constexpr std::uint64_t stream = 106;
-  KickEnv env({.world = World::fast});
+  constexpr std::uint64_t stream = 106;  // of this search alone
+  KickEnvironment env({.physics = Physics::planar});
   InterceptorParameters best;
   double best_mean = no_contact_reward;
   for (std::uint64_t i = 0; i < 1'000; ++i) {
@@ -62,8 +63,8 @@ TEST(Rivals, TheInterceptorsParametersAreTheBestOfTheSearch) {
     drawn.lead_s = random.uniform(-0.1, 0.2);
     drawn.run_up_m = random.uniform(0.0, 1.0);
     drawn.time_to_back_up_s = random.uniform(0.0, 0.6);
-    const double mean = mean_reward(env, seed, training_episodes, 2'000, [&drawn](std::uint64_t) {
-      return [&drawn](const KickEnv& seen) { return intercept(drawn, seen); };
+    const double mean = mean_reward(env, seed, first_training_episode, 2'000, [&drawn](std::uint64_t) {
+      return [&drawn](const KickEnvironment& seen) { return intercept(drawn, seen); };
     });
     if (mean > best_mean) {
       best_mean = mean;

@@ -10,6 +10,7 @@
 
 #include "tests/training/fixtures.hpp"
 #include "training/experiment/experiment_summary.hpp"
+#include "training/experiment/verdicts.hpp"
 #include "training/experiment/workers.hpp"
 
 namespace striker::training {
@@ -148,7 +149,7 @@ TEST(Experiment, TheSummaryIsThatOfItsRuns) {
     never.rewards.assign(3000, -5.0);
     runs[1].push_back(never);
   }
-  const auto summaries = summarise(variants, runs, 8.0);
+  const auto summaries = summarise_variants(variants, runs, 8.0);
   const VariantSummary& late = summaries[0];
   // -4 of a window from -10 to 10: more than 75 of its 250 episodes.
   EXPECT_EQ(late.crossings[0].episode.value, 1150.0 + 76.0);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/training/fixtures.hpp"
+#include "training/export/export_report.hpp"
 
 namespace striker::training {
 namespace {
@@ -19,15 +20,15 @@ Model some_model(const Shape& shape = {}) {
 }
 
 // Twelve inputs and five actions, two of which turn.
-EnvConfig another_task() {
-  EnvConfig task;
+TaskConfig another_task() {
+  TaskConfig task;
   task.inputs = rcs_inputs();
   for (StateInput input : rcs_inputs()) {
     input.decisions_ago = 1;
     task.inputs.push_back(input);
   }
   task.inputs.back() = {.element = Element::decisions_left};
-  task.mirrored = true;
+  task.one_sided = true;
   task.actions.push_back({.left_m_s = 2.0, .right_m_s = 1.0});
   task.actions.push_back({.left_m_s = 1.0, .right_m_s = 2.0});
   return task;
@@ -162,10 +163,10 @@ TEST(Export, AnotherTasksHeaderProvesItself) {
 }
 
 TEST(Export, WhatTheFirmwareCannotServeIsRefused) {
-  EnvConfig printed;
+  TaskConfig printed;
   printed.equations = Equations::printed;
   EXPECT_THROW((void)export_model(some_model(), printed), std::runtime_error);
-  EnvConfig field;
+  TaskConfig field;
   field.inputs = acs_inputs();
   EXPECT_THROW((void)export_model(some_model({.inputs = 10}), field), std::runtime_error);
 }

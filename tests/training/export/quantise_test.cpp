@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "tests/training/fixtures.hpp"
-#include "training/export/agreement.hpp"
+#include "training/export/comparison/agreement.hpp"
 
 namespace striker::training {
 namespace {
@@ -66,7 +66,7 @@ void expect_agreement(WeightType weights, const Tolerance& tolerance) {
     const Parameters parameters = some_parameters(seed);
     const Quantised quantised = quantise(parameters, inputs, some_states(seed, 2000), weights);
     Actor actor(parameters.shape());
-    std::vector<Decision> decisions;
+    std::vector<TakenDecision> decisions;
     double greatest_error = 0.0;
     for (const RawState& state : some_states(seed + 100, 2000)) {
       const IntegerAnswer answer = evaluate(quantised.network, state);

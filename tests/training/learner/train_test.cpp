@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/training/fixtures.hpp"
+#include "training/run/evaluation.hpp"
 #include "training/run/training_run.hpp"
+#include "training/task/episode_numbers.hpp"
 
 namespace striker::training {
 namespace {
@@ -24,7 +26,7 @@ TEST(Train, IsAFunctionOfConfigurationAndSeed) {
     EXPECT_EQ(a.episode.loss, b.episode.loss);
     EXPECT_EQ(a.episode.q, b.episode.q);
   }
-  EXPECT_GT(first.learner().gradient_steps(), 500);
+  EXPECT_GT(first.learner().state().gradient_steps, 500);
   EXPECT_EQ(first.learner().result(), second.learner().result());
   EXPECT_FALSE(first.learner().result() == learnt(config, 2));
 }
@@ -45,7 +47,7 @@ TEST(Train, EveryOptionMatters) {
   EXPECT_TRUE(differs([](Config& c) { c.learner.cut_at_exploration = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.double_dqn = false; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.huber = true; }));
-  EXPECT_TRUE(differs([](Config& c) { c.learner.mirror = false; }));
+  EXPECT_TRUE(differs([](Config& c) { c.learner.augment_mirrored = false; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.batch = 32; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.replay_size = 300; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.warm_up = 300; }));
@@ -93,7 +95,7 @@ TEST(Train, TheCurveIsTheMovingAverageOfItsRewards) {
       sum += rows[k].episode.reward;
     }
     ASSERT_NEAR(rows[i].moving_average, sum / static_cast<double>(i + 1 - first), 1e-9);
-    ASSERT_LE(rows[i].episode.steps, sil::kick_decisions);
+    ASSERT_LE(rows[i].episode.decisions, sil::kick_decisions);
   }
 }
 
@@ -109,18 +111,15 @@ TEST(Train, PlaysItsOwnEpisodesUpToTheContact) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Training training(config, seed);
     const Parameters parameters = initial_parameters(config.shape, seed);
-    KickEnv env(config.environments.front());
-    Actor actor(config.shape);
-    const auto played = [&](std::uint64_t episode) {
-      return play(env, seed, episode,
-                  [&](const KickEnv& seen) { return actor.choose(parameters, seen.features()); });
-    };
+    KickEnvironment env(config.environments.front());
+    GreedyRule greedy(parameters);
+    const auto played = [&](std::uint64_t episode) { return play(env, seed, episode, greedy); };
     for (std::uint64_t i = 0; !training.done(); ++i) {
       const EpisodeRow row = training.play_episode().episode;
-      const sil::KickOutcome outcome = played(training_episodes + i);
-      ASSERT_EQ(row.contact, outcome.contact);
+      const sil::KickOutcome outcome = played(first_training_episode + i);
+      ASSERT_EQ(row.success, outcome.contact);
       ASSERT_EQ(row.reward, outcome.reward);
-      ASSERT_EQ(row.steps, outcome.contact ? outcome.contact_decision + 1 : sil::kick_decisions);
+      ASSERT_EQ(row.decisions, outcome.contact ? outcome.contact_decision + 1 : sil::kick_decisions);
       contacts += outcome.contact ? 1 : 0;
       unlike_evaluation += row.reward != played(i).reward ? 1 : 0;
     }
@@ -135,9 +134,10 @@ TEST(Train, LearnsToKick) {
   config.learner.gamma = 0.98;
   config.learner.target_period = 1000;
   config.exploration.decay_episodes = 800;
-  const EnvConfig& task = config.environments.front();
-  const double untrained = validate(task, initial_parameters(config.shape, 1), 1, 200);
-  const double trained = validate(task, learnt(config, 1), 1, 200);
+  const TaskConfig& task = config.environments.front();
+  const double untrained =
+      mean_reward(task, initial_parameters(config.shape, 1), 1, first_validation_episode, 200);
+  const double trained = mean_reward(task, learnt(config, 1), 1, first_validation_episode, 200);
   EXPECT_LT(untrained, -2.0);
   EXPECT_GT(trained, 3.0);
 }

@@ -1,7 +1,9 @@
 // The configuration: what is wrong is named.
 #include "training/run/config.hpp"
 
+#include "firmware/policy/exported/kick.hpp"
 #include "tests/training/fixtures.hpp"
+#include "training/model/hash.hpp"
 
 namespace striker::training {
 namespace {
@@ -42,6 +44,7 @@ const std::vector<Wrong> wrong = {
      {"task.actions", "2 to 16"}},
     {"NoPair", "[0.0, 0.0], ", "[0.0], ", {"task.actions", "2 numbers"}},
     {"TooFast", "[0.0, 0.0], ", "[0.0, 3.0], ", {"task.actions", "2.55"}},
+    {"UnknownKind", "kind = \"kick\"", "kind = \"dribble\"", {"task.kind = 'dribble'", "must be \"kick\""}},
     {"SpeedsTurned", "speed_m_s = [1.0, 3.0]", "speed_m_s = [3.0, 1.0]", {"ball.speed_m_s", "lower"}},
     {"HalfANeuron", "hidden = [64, 64]", "hidden = [64, 0.5]", {"network.hidden"}},
     {"NoToml", "[optimiser]", "[optimiser", {"line "}},
@@ -88,6 +91,16 @@ TEST(Config, EmptyIsThePapers) {
   EXPECT_EQ(config.learner.gamma, 0.5);
   EXPECT_EQ(parse_config(config.text, "g").text, config.text);
   EXPECT_EQ(parse_config(config.text, "g").learner.gamma, 0.5);
+}
+
+// A configuration is known by its text's hash, which exported headers carry: the default kind of task, which older
+// texts did not name, stands in none.
+TEST(Config, TheCommittedPolicysConfigurationIsStillItsOwn) {
+  const std::filesystem::path configs = STRIKER_CONFIGS;
+  const Config kick = load_config(configs / "kick.toml");
+  EXPECT_EQ(fnv1a(kick.text), policy::kick.configuration_hash);
+  EXPECT_EQ(kick.environments.front().kind, TaskKind::kick);
+  EXPECT_EQ(parse_config("[task]\nkind = \"kick\"\n", "f").text, parse_config("", "f").text);
 }
 
 TEST(Config, ChangesOverrideTheFile) {

@@ -1,6 +1,7 @@
 // A training as a directory: interrupted, resumed, damaged.
 #include "training/run/training_run.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -24,7 +25,7 @@ bool go_on(const CurveRow& /*row*/) {
   return true;
 }
 
-Progress stop_after(int episodes) {
+TrainingProgress stop_after(int episodes) {
   return [episodes](const CurveRow& row) { return row.episode.episode + 1 < episodes; };
 }
 
@@ -85,9 +86,10 @@ TEST(TrainingRun, KeepsTheBestOfItsEvaluations) {
     best = std::max(best, mean);
   }
   EXPECT_EQ(rows, 3);
-  EXPECT_NEAR(std::stod(result.best_mean_reward), best, 1e-3);
+  ASSERT_TRUE(result.best_mean_reward.has_value());
+  EXPECT_NEAR(*result.best_mean_reward, best, 1e-3);
   EXPECT_EQ(load_model(directory / "run/best.safetensors").metadata.at("mean_reward"),
-            result.best_mean_reward);
+            fmt::format("{:.3f}", *result.best_mean_reward));
 }
 
 std::string complaint_of(const std::filesystem::path& run, const Config& config, std::uint64_t seed,

@@ -7,23 +7,24 @@
 #include <set>
 
 #include "tests/training/fixtures.hpp"
+#include "training/task/episode_numbers.hpp"
 
 namespace striker::training {
 namespace {
 
-int scripted(const KickEnv& seen) {
+int scripted(const KickEnvironment& seen) {
   const RcsState& state = seen.state();
   return state.ball_x_m < 0.4 ? 2 : static_cast<int>(std::abs(state.ball_y_m) > 0.2);
 }
 
 constexpr std::uint64_t seed = 5;
 
-void expect_the_same_alone_and_after_others(const EnvConfig& config) {
-  KickEnv busy(config);
+void expect_the_same_alone_and_after_others(const TaskConfig& config) {
+  KickEnvironment busy(config);
   for (std::uint64_t i = 0; i < 200; ++i) {
     play(busy, seed, i, scripted);
   }
-  KickEnv fresh(config);
+  KickEnvironment fresh(config);
   const auto late = play(busy, seed, 200, scripted);
   const auto alone = play(fresh, seed, 200, scripted);
   EXPECT_EQ(late.reward, alone.reward);
@@ -31,15 +32,15 @@ void expect_the_same_alone_and_after_others(const EnvConfig& config) {
   EXPECT_EQ(late.theta_contact_rad, alone.theta_contact_rad);
 }
 
-TEST(KickEnv, AnEpisodeIsTheSameAloneAndAfterOthers) {
-  for (const World world : {World::fast, World::full}) {
-    expect_the_same_alone_and_after_others({.world = world});
-    expect_the_same_alone_and_after_others({.world = world, .velocities = Velocities::estimated});
+TEST(KickEnvironment, AnEpisodeIsTheSameAloneAndAfterOthers) {
+  for (const Physics physics : {Physics::planar, Physics::full}) {
+    expect_the_same_alone_and_after_others({.physics = physics});
+    expect_the_same_alone_and_after_others({.physics = physics, .velocities = Velocities::estimated});
   }
 }
 
-TEST(KickEnv, RewardsOfTheStepsAddUpToTheOutcome) {
-  KickEnv env({});
+TEST(KickEnvironment, RewardsOfTheStepsAddUpToTheOutcome) {
+  KickEnvironment env({});
   int contacts = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
     env.reset(seed, i);
@@ -49,7 +50,7 @@ TEST(KickEnv, RewardsOfTheStepsAddUpToTheOutcome) {
     for (bool last = false; !last; ++steps) {
       const StepResult result = env.step(0);
       sum += result.reward;
-      told += result.contact ? 1 : 0;
+      told += result.success ? 1 : 0;
       last = result.last;
     }
     EXPECT_EQ(steps, sil::kick_decisions);
@@ -61,8 +62,8 @@ TEST(KickEnv, RewardsOfTheStepsAddUpToTheOutcome) {
   EXPECT_LT(contacts, 95);
 }
 
-TEST(KickEnv, PlayMeasuresEveryContact) {
-  KickEnv env({});
+TEST(KickEnvironment, PlayMeasuresEveryContact) {
+  KickEnvironment env({});
   for (std::uint64_t i = 0; i < 300; ++i) {
     const auto outcome = play(env, seed, i, scripted);
     EXPECT_EQ(outcome.contact, outcome.ball_measured) << i;
@@ -70,9 +71,9 @@ TEST(KickEnv, PlayMeasuresEveryContact) {
 }
 
 // What the fast world teaches holds in the full one (bounds: tests/world/planar_world_test.cpp).
-TEST(KickEnv, BothWorldsTellTheSameEpisode) {
-  KickEnv fast({.world = World::fast});
-  KickEnv full({.world = World::full});
+TEST(KickEnvironment, BothWorldsTellTheSameEpisode) {
+  KickEnvironment fast({.physics = Physics::planar});
+  KickEnvironment full({.physics = Physics::full});
   int contacts = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
     const auto a = play(fast, seed, i, scripted);
@@ -88,9 +89,9 @@ TEST(KickEnv, BothWorldsTellTheSameEpisode) {
 
 // Before the contact nothing but damping acts on the ball: positions 50 ms apart tell its mean velocity, at
 // most half a frame old.
-TEST(KickEnv, EstimatedBallVelocityIsTheTrueOneWithinItsLag) {
-  KickEnv exact({});
-  KickEnv estimated({.velocities = Velocities::estimated});
+TEST(KickEnvironment, EstimatedBallVelocityIsTheTrueOneWithinItsLag) {
+  KickEnvironment exact({});
+  KickEnvironment estimated({.velocities = Velocities::estimated});
   for (std::uint64_t i = 0; i < 50; ++i) {
     exact.reset(seed, i);
     estimated.reset(seed, i);
@@ -107,9 +108,10 @@ TEST(KickEnv, EstimatedBallVelocityIsTheTrueOneWithinItsLag) {
 }
 
 // Training, validation and calibration draw their balls from numbers that an evaluation cannot reach.
-TEST(KickEnv, NoEvaluationMeetsATrainingEpisode) {
-  EXPECT_GT(calibration_episodes, std::uint64_t{1} << 60U);
-  const std::set<std::uint64_t> firsts{0, calibration_episodes, validation_episodes, training_episodes};
+TEST(KickEnvironment, NoEvaluationMeetsATrainingEpisode) {
+  EXPECT_GT(first_calibration_episode, std::uint64_t{1} << 60U);
+  const std::set<std::uint64_t> firsts{0, first_calibration_episode, first_validation_episode,
+                                       first_training_episode};
   EXPECT_EQ(firsts.size(), 4U);
   std::set<double> balls;
   for (const std::uint64_t first : firsts) {
@@ -120,9 +122,9 @@ TEST(KickEnv, NoEvaluationMeetsATrainingEpisode) {
   EXPECT_EQ(balls.size(), 4000U);
 }
 
-TEST(KickEnv, TheStateAtTheStartIsThePosesIndependent) {
-  KickEnv origin({});
-  KickEnv anywhere({.pose = sil::PoseMode::anywhere});
+TEST(KickEnvironment, TheStateAtTheStartIsThePosesIndependent) {
+  KickEnvironment origin({});
+  KickEnvironment anywhere({.pose = sil::PoseMode::anywhere});
   for (std::uint64_t i = 0; i < 20; ++i) {
     origin.reset(seed, i);
     anywhere.reset(seed, i);
@@ -131,18 +133,18 @@ TEST(KickEnv, TheStateAtTheStartIsThePosesIndependent) {
 }
 
 // The same situation on the other side of the heading: the same features, and the wheels swapped.
-TEST(KickEnv, AMirroredTaskKnowsTheLeftOnly) {
-  EnvConfig task;
-  task.mirrored = true;
+TEST(KickEnvironment, AMirroredTaskKnowsTheLeftOnly) {
+  TaskConfig task;
+  task.one_sided = true;
   task.actions = {{.left_m_s = 2.0, .right_m_s = 0.0}, {.left_m_s = -1.0, .right_m_s = -1.5}};
-  KickEnv mirrored(task);
-  task.mirrored = false;
-  KickEnv plain(task);
+  KickEnvironment mirrored(task);
+  task.one_sided = false;
+  KickEnvironment plain(task);
   std::swap(task.actions[0].left_m_s, task.actions[0].right_m_s);
-  KickEnv swapped(task);
+  KickEnvironment swapped(task);
   int right_side = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
-    for (KickEnv* env : {&mirrored, &plain, &swapped}) {
+    for (KickEnvironment* env : {&mirrored, &plain, &swapped}) {
       env->reset(seed, i);
     }
     const bool right = plain.state().ball_y_m < 0.0;
@@ -150,10 +152,10 @@ TEST(KickEnv, AMirroredTaskKnowsTheLeftOnly) {
     EXPECT_LT((mirrored.features() - (right ? image : plain.features())).norm(), 1e-6F);
     EXPECT_GE(mirrored.features()[1], 0.0F);
     EXPECT_GE(mirrored.raw()[1], 0);
-    for (KickEnv* env : {&mirrored, &plain, &swapped}) {
+    for (KickEnvironment* env : {&mirrored, &plain, &swapped}) {
       env->step(0);
     }
-    const KickEnv& same = right ? swapped : plain;
+    const KickEnvironment& same = right ? swapped : plain;
     EXPECT_EQ(mirrored.state().ball_x_m, same.state().ball_x_m);
     EXPECT_EQ(mirrored.state().ball_y_m, same.state().ball_y_m);
     right_side += right ? 1 : 0;
@@ -163,12 +165,12 @@ TEST(KickEnv, AMirroredTaskKnowsTheLeftOnly) {
 }
 
 // A user's own actions, inputs and reward.
-TEST(KickEnv, ATaskOfOnesOwn) {
-  EnvConfig task;
+TEST(KickEnvironment, ATaskOfOnesOwn) {
+  TaskConfig task;
   task.actions = {{.left_m_s = 1.0, .right_m_s = -1.0}, {.left_m_s = 0.0, .right_m_s = 0.0}};
   task.inputs = {{.element = Element::field_robot_heading}, {.element = Element::decisions_left}};
   task.rules.waiting_reward = -1.0;
-  KickEnv env(task);
+  KickEnvironment env(task);
   env.reset(seed, 1);
   EXPECT_EQ(env.features()[1], 1.0F);
   EXPECT_EQ(env.step(0).reward, -1.0);
@@ -177,15 +179,15 @@ TEST(KickEnv, ATaskOfOnesOwn) {
 }
 
 // A reading of the paper: the contact is paid in every decision, and the episode goes on.
-TEST(KickEnv, EveryContactMayPay) {
-  EnvConfig every;
+TEST(KickEnvironment, EveryContactMayPay) {
+  TaskConfig every;
   every.rules.every_contact = true;
   every.goes_on = true;
-  KickEnv official({});
-  KickEnv reading(every);
+  KickEnvironment official({});
+  KickEnvironment reading(every);
   int more = 0;
   for (std::uint64_t i = 0; i < 1000; ++i) {
-    const auto rewards = [i](KickEnv& env) {
+    const auto rewards = [i](KickEnvironment& env) {
       sil::Random random(seed, i, 1);
       env.reset(seed, i);
       std::vector<double> paid;
@@ -193,7 +195,7 @@ TEST(KickEnv, EveryContactMayPay) {
         const StepResult result = env.step(static_cast<int>(random.below(3)));
         paid.push_back(result.reward);
         last = result.last;
-        EXPECT_EQ(result.end, result.last || (result.contact && !env.config().goes_on));
+        EXPECT_EQ(result.end, result.last || (result.success && !env.config().goes_on));
       }
       return paid;
     };
@@ -209,14 +211,14 @@ TEST(KickEnv, EveryContactMayPay) {
   EXPECT_GT(more, 5);
 }
 
-TEST(KickEnv, UnsignedSpeedPaysBackwardHits) {
-  EnvConfig reading;
+TEST(KickEnvironment, UnsignedSpeedPaysBackwardHits) {
+  TaskConfig reading;
   reading.rules.signed_speed = false;
-  KickEnv official({});
-  KickEnv unsigned_speed(reading);
+  KickEnvironment official({});
+  KickEnvironment unsigned_speed(reading);
   int backward = 0;
   for (std::uint64_t i = 0; i < 500; ++i) {
-    const auto reverse = [](const KickEnv& /*seen*/) { return 2; };
+    const auto reverse = [](const KickEnvironment& /*seen*/) { return 2; };
     const auto a = play(official, seed, i, reverse);
     const auto b = play(unsigned_speed, seed, i, reverse);
     if (a.contact && a.v_contact_m_s < 0.0) {

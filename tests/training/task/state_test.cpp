@@ -119,7 +119,7 @@ Features features_at(const StateInputs& inputs, const Observation& seen) {
   history.begin({.rcs = rcs_state(seen, Equations::corrected), .field = seen, .decisions_left = 30});
   sil::Random dummies(1, 1, 1);
   Features features(inputs.size());
-  see(inputs, history, false, dummies, features);
+  write_features(inputs, history, false, dummies, features);
   return features;
 }
 
@@ -150,7 +150,7 @@ TEST(State, RawUnitsSayTheSame) {
     ASSERT_EQ(raw.size(), inputs.size());
     sil::Random dummies(1, 1, 1);
     Features features(inputs.size());
-    see(inputs, history, false, dummies, features);
+    write_features(inputs, history, false, dummies, features);
     features[5] = features[5] >= 1.0F - 1.0F / 65536.0F ? -1.0F : features[5];  // pi and -pi are one count
     ASSERT_LT((features_of(inputs, raw) - features).cwiseAbs().maxCoeff(), 3e-4F);
   }
@@ -185,11 +185,11 @@ TEST(State, DummiesAreNoiseOfTheirOwnStream) {
   sil::Random same(1, 2, 3);
   Features first(2);
   Features again(2);
-  see(inputs, {}, false, stream, first);
-  see(inputs, {}, false, same, again);
+  write_features(inputs, {}, false, stream, first);
+  write_features(inputs, {}, false, same, again);
   EXPECT_EQ(first, again);
   EXPECT_NE(first[0], first[1]);
-  see(inputs, {}, false, stream, again);
+  write_features(inputs, {}, false, stream, again);
   EXPECT_NE(first, again);
   EXPECT_LE(again.cwiseAbs().maxCoeff(), 1.0F);
 }

@@ -1,0 +1,44 @@
+// What the controller says in a tick: what the wheels are to do, and what is told about it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "firmware/core/percepts.hpp"
+#include "firmware/core/state.hpp"
+
+namespace striker::core {
+
+struct WheelTorques {
+  std::int32_t left_mNm = 0;
+  std::int32_t right_mNm = 0;
+  bool operator==(const WheelTorques&) const = default;
+};
+
+// For torque drives the torque counts; drives with speed loops of their own take the set-point.
+struct DriveCommand {
+  WheelTorques torque;
+  WheelSpeeds set_point;
+  bool operator==(const DriveCommand&) const = default;
+};
+
+struct Decision {
+  std::uint32_t number = 0;  // since arming, from 0
+  std::uint8_t action = 0;
+  bool extrapolated = false;      // decided without a new picture
+  std::int32_t best_q_256th = 0;  // Q of the action, in 1/256
+  std::int32_t next_q_256th = 0;  // Q of the best other action
+};
+
+struct Actions {
+  DriveCommand drive;
+  std::optional<Decision> decision;  // in the tick that made one
+  State state = State::boot;
+  Fault fault = Fault::none;     // the first since the last clear
+  std::uint32_t fault_tick = 0;  // in which it was latched
+  std::uint32_t uptime_ticks = 0;
+  bool vision_ready = false;  // pictures are fresh, and good for a velocity: arming needs that
+  bool wheels_ready = false;  // wheel speeds are fresh
+};
+
+}  // namespace striker::core

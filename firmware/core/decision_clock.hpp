@@ -1,0 +1,51 @@
+// When the policy decides: once every `decision_period_ticks`, in phase with the camera as long as it can.
+//
+// A new picture within `decision_window_ticks` of the expected time decides in its own tick and restarts the
+// count. Without one the count runs free, and decides on extrapolated positions, until the freshness limit
+// ends that elsewhere. A picture that comes just after such a decision decides again: its figures are better.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/core/tick.hpp"
+
+namespace striker::core {
+
+inline constexpr std::uint32_t decision_window_ticks = 5;
+
+enum class DecisionDue : std::uint8_t { no, on_picture, extrapolated };
+
+class DecisionClock {
+ public:
+  // At arming: waits for the first picture.
+  void restart() { *this = {}; }
+
+  // The first picture since `restart` has come.
+  [[nodiscard]] bool started() const { return !awaits_first_picture_; }
+
+  // Once a tick, while armed.
+  [[nodiscard]] DecisionDue at(std::uint32_t tick, bool new_picture) {
+    const std::uint32_t phase = tick - decision_tick_;
+    const bool early_enough = phase >= decision_period_ticks - decision_window_ticks;
+    const bool late_for_extrapolated = last_extrapolated_ && phase <= decision_window_ticks;
+    if (new_picture && (awaits_first_picture_ || early_enough || late_for_extrapolated)) {
+      awaits_first_picture_ = false;
+      last_extrapolated_ = false;
+      decision_tick_ = tick;
+      return DecisionDue::on_picture;
+    }
+    if (!awaits_first_picture_ && phase >= decision_period_ticks) {
+      last_extrapolated_ = true;
+      decision_tick_ = tick - phase % decision_period_ticks;
+      return DecisionDue::extrapolated;
+    }
+    return DecisionDue::no;
+  }
+
+ private:
+  bool awaits_first_picture_ = true;
+  bool last_extrapolated_ = false;
+  std::uint32_t decision_tick_ = 0;
+};
+
+}  // namespace striker::core

@@ -1,0 +1,168 @@
+// A policy at work: from where the ball is to where the wheels are to go, once a decision.
+//
+// `policy` is a constant with static storage, as an exported header holds (firmware/policy/policy.hpp). The
+// compiler refuses one that could overflow, that was altered after its export, or that this controller cannot
+// feed. One image may hold several pilots; each is a plain value, without statics, and copies go on alone.
+//
+//   Pilot<policy::kick> pilot;
+//   const Decision decision = pilot.decide(relative_state(estimator.at(tick)), false);
+//   loops.step(robot, pilot.set_point(), measured);
+//
+// Cost: a decision is one forward pass, whose instruction count does not depend on the input.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "firmware/core/actions.hpp"
+#include "firmware/core/estimation/relative_state.hpp"
+#include "firmware/core/robot_profile.hpp"
+#include "firmware/core/supervisor.hpp"
+#include "firmware/core/tick.hpp"
+#include "firmware/policy/network.hpp"
+#include "firmware/policy/proof.hpp"
+
+namespace striker::core {
+
+template <const auto& policy>
+class Pilot {
+  using Shape = std::remove_cvref_t<decltype(policy)>;
+
+  static_assert(policy::scales_are_valid(policy),
+                "STRIKER POLICY: a shift, a multiplier or the period is out of range");
+  static_assert(policy::sums_fit(policy),
+                "STRIKER POLICY: a 32-bit sum could overflow: export the model again");
+  static_assert(policy::identity_of(policy) == policy.identity,
+                "STRIKER POLICY: the header was altered after its export: export the model again");
+  static_assert(policy.decision_period_ms == decision_period_ms,
+                "STRIKER POLICY: trained at another decision period than this controller's 50 ms");
+  static_assert(policy::inputs_are_known(policy),
+                "STRIKER POLICY: an input that this controller does not compute, or too many of them");
+  static_assert(Shape::goldens >= 1, "STRIKER POLICY: no golden vector to test the boot with");
+
+ public:
+  static constexpr std::uint32_t identity = policy.identity;
+
+  // What the network reads, in the order of its inputs, and where its actions send the wheels. Copies: what
+  // is read at run time must not bring the header's weights into the image, where the kernel's own are.
+  static constexpr auto state = policy.state;
+  static constexpr auto set_points = policy.set_points;
+  using Inputs = std::array<std::int32_t, Shape::inputs>;
+
+  // No action goes beyond the robot's top speed: a constant expression where the robot is known to the
+  // compiler, and a part of the self-test everywhere.
+  [[nodiscard]] static constexpr bool suits(const RobotProfile& robot) {
+    for (const policy::WheelSetPoint& action : set_points) {
+      if (std::max(action.left_mm_s, action.right_mm_s) > robot.top_rim_speed_mm_s ||
+          std::min(action.left_mm_s, action.right_mm_s) < -robot.top_rim_speed_mm_s) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // One golden vector a tick, so that no tick is longer than one with a decision.
+  [[nodiscard]] SelfTest test_self(const RobotProfile& robot) {
+    if (self_test_ == SelfTest::running) {
+      const auto& golden = golden_vectors[self_tested_];
+      const auto q = policy::infer<policy>(golden.raw);
+      if (q.sums != golden.sums || q.action != golden.action || !suits(robot)) {
+        self_test_ = SelfTest::failed;
+      } else if (++self_tested_ == Shape::goldens) {
+        self_test_ = SelfTest::passed;
+      }
+    }
+    return self_test_;
+  }
+
+  // At arming: the next decision is number 0, and nothing came before it.
+  void reset() {
+    decisions_ = 0;
+    history_ = {};
+    set_point_ = {};
+  }
+
+  [[nodiscard]] Decision decide(RelativeState now, bool extrapolated) {
+    const auto made =
+        static_cast<std::int32_t>(std::min<std::uint32_t>(decisions_, policy::decisions_a_kick));
+    now.decisions_left = policy::decisions_a_kick - made;
+    remember(now);
+    const bool mirror = one_sided && now.ball_um.y < 0;
+    read_inputs(mirror);
+    const auto q = policy::infer<policy>(inputs_);
+    set_point_ = {set_points[q.action].left_mm_s, set_points[q.action].right_mm_s};
+    if (mirror) {
+      std::swap(set_point_.left_mm_s, set_point_.right_mm_s);
+    }
+    return {.number = decisions_++,
+            .action = q.action,
+            .extrapolated = extrapolated,
+            .best_q_256th = q.sums[q.action] >> output_shift,
+            .next_q_256th = runner_up(q) >> output_shift};
+  }
+
+  // Of the last decision; 0 before the first.
+  [[nodiscard]] const WheelSpeeds& set_point() const { return set_point_; }
+
+  // What the network read in the last decision, for telemetry and tests.
+  [[nodiscard]] const Inputs& inputs() const { return inputs_; }
+
+ private:
+  static constexpr auto golden_vectors = policy.golden_vectors;
+  static constexpr bool one_sided = policy.mirrored;
+  static constexpr auto flips = [] {  // in a mirror along the heading
+    std::array<bool, Shape::inputs> changes{};
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      changes[i] = policy::changes_sign(policy.state[i].element);
+    }
+    return changes;
+  }();
+  static constexpr int output_shift = policy.output.shift;
+  static constexpr std::size_t look_back = [] {
+    std::size_t furthest = 0;
+    for (const policy::StateInput& input : policy.state) {
+      furthest = std::max<std::size_t>(furthest, input.decisions_ago);
+    }
+    return furthest;
+  }();
+
+  // Before the first decision everything was as at the first.
+  void remember(const RelativeState& now) {
+    if (decisions_ == 0) {
+      history_.fill(now);
+      return;
+    }
+    std::copy_backward(history_.begin(), history_.end() - 1, history_.end());
+    history_.front() = now;
+  }
+
+  void read_inputs(bool mirror) {
+    for (std::size_t i = 0; i < Shape::inputs; ++i) {
+      const std::int32_t value = element_of(history_[state[i].decisions_ago], state[i].element);
+      inputs_[i] = mirror && flips[i] ? -value : value;
+    }
+  }
+
+  // The best Q among the actions other than the chosen one, still in the output layer's scale.
+  [[nodiscard]] static std::int32_t runner_up(const policy::QValues<Shape::actions>& q) {
+    std::int32_t best = q.sums[q.action == 0 ? 1 : 0];
+    for (std::size_t k = 0; k < Shape::actions; ++k) {
+      best = k == q.action ? best : std::max(best, q.sums[k]);
+    }
+    return best;
+  }
+
+  SelfTest self_test_ = SelfTest::running;
+  std::size_t self_tested_ = 0;  // golden vectors that passed
+  std::uint32_t decisions_ = 0;  // since the reset
+  WheelSpeeds set_point_;
+  Inputs inputs_{};
+  std::array<RelativeState, look_back + 1> history_{};  // of the decisions, the newest first
+};
+
+}  // namespace striker::core

@@ -1,0 +1,89 @@
+// A robot as data: what the controller has to know of it, and where that comes from.
+//
+// `RobotDescription` holds what can be weighed and read off a motor's data sheet. `profile_of` derives what
+// the wheel loops and the checks need, in integers, when the program is compiled. Other people's robots are
+// other descriptions; nothing else in the core knows a robot's number.
+//
+//   constexpr RobotDescription mine = {.body_mass_g = 2200, .wheel_mass_g = 120, .wheel_radius_um = 50'000,
+//                                      .torque_limit_mNm = 600, .top_rim_speed_mm_s = 1500};
+//   Controller<Pilot<policy::kick>> controller(profile_of(mine));
+#pragma once
+
+#include <cstdint>
+
+namespace striker::core {
+
+struct RobotDescription {
+  std::int32_t body_mass_g;
+  std::int32_t wheel_mass_g;  // each: a solid cylinder
+  std::int32_t wheel_radius_um;
+  std::int32_t torque_limit_mNm;    // of each wheel
+  std::int32_t top_rim_speed_mm_s;  // of each wheel
+};
+
+// The AI Soccer roles (AI World Cup test_world, branch master 37312a93).
+inline constexpr RobotDescription goalkeeper = {.body_mass_g = 2500,
+                                                .wheel_mass_g = 150,
+                                                .wheel_radius_um = 40'000,
+                                                .torque_limit_mNm = 800,
+                                                .top_rim_speed_mm_s = 1800};
+inline constexpr RobotDescription defender = {.body_mass_g = 2000,
+                                              .wheel_mass_g = 100,
+                                              .wheel_radius_um = 40'000,
+                                              .torque_limit_mNm = 1200,
+                                              .top_rim_speed_mm_s = 2100};
+inline constexpr RobotDescription forward = {.body_mass_g = 1500,
+                                             .wheel_mass_g = 100,
+                                             .wheel_radius_um = 40'000,
+                                             .torque_limit_mNm = 400,
+                                             .top_rim_speed_mm_s = 2550};
+
+struct RobotProfile {
+  std::int32_t torque_limit_mNm = 0;
+  std::int32_t top_rim_speed_mm_s = 0;  // no set-point beyond it
+  std::int32_t overspeed_mm_s = 0;      // a wheel this fast must not be driven further
+  std::int32_t kp_q8 = 0;               // of the wheel loops: mNm for a mm/s
+  std::int32_t ki_tick_q16 = 0;         // mNm for a mm/s and a tick
+
+  bool operator==(const RobotProfile&) const = default;
+};
+
+namespace detail {
+
+// Crosses over near 100 rad/s, a decade below the 3 ms that measurement, tick and current loop delay, with
+// the integral's corner at 10 rad/s.
+inline constexpr std::int64_t crossover_rad_s = 100;
+inline constexpr std::int64_t integral_corner_rad_s = 10;
+
+inline constexpr std::int64_t overspeed_percent = 115;
+
+// numerator / denominator to the nearest.
+constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denominator) {
+  return static_cast<std::int32_t>((2 * numerator + denominator) / (2 * denominator));
+}
+
+}  // namespace detail
+
+// Both wheels at torque T accelerate the robot by 2 T / (r m), where m is its whole mass with the wheels'
+// spin (half a cylinder's mass at the rim): a forward, 1.8 kg, by 27.8 mm/s^2 for each mNm. So kp is
+// crossover * r m / 2, in N m / (m/s), which is the same number in mNm / (mm/s).
+[[nodiscard]] constexpr RobotProfile profile_of(const RobotDescription& robot) {
+  using namespace detail;
+  const std::int64_t moved_mass_g = robot.body_mass_g + 3 * robot.wheel_mass_g;
+  const std::int64_t kp_e9 = crossover_rad_s * robot.wheel_radius_um * moved_mass_g / 2;
+  constexpr std::int64_t e9 = 1'000'000'000;
+  constexpr std::int64_t ticks_a_second = 1'000;
+  return {.torque_limit_mNm = robot.torque_limit_mNm,
+          .top_rim_speed_mm_s = robot.top_rim_speed_mm_s,
+          .overspeed_mm_s = rounded_ratio(overspeed_percent * robot.top_rim_speed_mm_s, 100),
+          .kp_q8 = rounded_ratio(256 * kp_e9, e9),
+          .ki_tick_q16 = rounded_ratio(65'536 * integral_corner_rad_s * kp_e9, ticks_a_second * e9)};
+}
+
+static_assert(profile_of(forward) == RobotProfile{.torque_limit_mNm = 400,
+                                                  .top_rim_speed_mm_s = 2550,
+                                                  .overspeed_mm_s = 2933,
+                                                  .kp_q8 = 922,           // 3.6 mNm/(mm/s)
+                                                  .ki_tick_q16 = 2359});  // 36 mNm/(mm/s)/s at 1 kHz
+
+}  // namespace striker::core

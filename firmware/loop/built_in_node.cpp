@@ -1,0 +1,7 @@
+#include "firmware/loop/built_in_node.hpp"
+
+namespace striker::loop {
+
+template class ControllerNode<core::Controller<BuiltInPilot>, can::StrikerDrives>;
+
+}  // namespace striker::loop

@@ -1,0 +1,24 @@
+// The node that this build's programs and images run: the built-in policy, with Striker's own drives.
+#pragma once
+
+#include "firmware/can/drives/striker_drives.hpp"
+#include "firmware/core/controller.hpp"
+#include "firmware/core/pilot.hpp"
+#include "firmware/core/robot_profile.hpp"
+#include "firmware/loop/controller_node.hpp"
+#include "firmware/policy/built_in.hpp"
+
+namespace striker::loop {
+
+using BuiltInPilot = core::Pilot<policy::built_in>;
+using BuiltInNode = ControllerNode<core::Controller<BuiltInPilot>, can::StrikerDrives>;
+
+inline constexpr core::RobotProfile built_in_robot = core::profile_of(core::forward);
+
+static_assert(BuiltInPilot::suits(built_in_robot),
+              "STRIKER POLICY: an action goes beyond the robot's top speed");
+
+// Compiled once, in built_in_node.cpp.
+extern template class ControllerNode<core::Controller<BuiltInPilot>, can::StrikerDrives>;
+
+}  // namespace striker::loop

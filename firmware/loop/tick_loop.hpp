@@ -1,0 +1,72 @@
+// The loop of every port: next tick, one step, its frames out. On Linux and on boards, by the clock and in
+// lockstep, under test and in a simulator it is this text.
+//
+//   ClockTicks ticks(clock, {...});  or  SyncTicks ticks;      // when, and on which frames
+//   TickLoop<Node, Bus, Ticks> loop(robot, bus, ticks);
+//   while (...) loop.turn();
+//   loop.stop();
+//
+// A fault of the port goes into the very step whose torque it concerns: nothing is sent that does not know of
+// it. A bus that is off is such a fault. What the bus does not take is counted.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/can/bus_health.hpp"
+#include "firmware/can/frame_list.hpp"
+#include "firmware/core/robot_profile.hpp"
+#include "firmware/loop/tick.hpp"
+
+namespace striker::loop {
+
+// A source of ticks has
+//   next(bus)    std::optional<Tick>: the next one, or nothing yet
+//   end(sent)    called after the step with its frames, before they are sent; may add to them
+//   done()       called when they are sent
+template <class Node, class BusType, class Ticks>
+class TickLoop {
+ public:
+  constexpr TickLoop(const core::RobotProfile& robot, BusType& bus, Ticks& ticks)
+      : bus_(&bus), ticks_(&ticks), node_(robot) {}
+
+  // One tick. False if there was none yet.
+  bool turn() {
+    auto tick = ticks_->next(*bus_);
+    if (!tick) {
+      return false;
+    }
+    if (tick->port_fault == core::Fault::none && bus_->health() == can::BusHealth::bus_off) {
+      tick->port_fault = core::Fault::bus_off;
+    }
+    last_tick_ = tick->number;
+    node_.step(*tick, frames_);
+    ticks_->end(frames_);
+    send();
+    ticks_->done();
+    return true;
+  }
+
+  // The port stops: disarmed, with torque 0 sent.
+  void stop() {
+    node_.step({.number = last_tick_, .stop = true}, frames_);
+    send();
+  }
+
+  [[nodiscard]] const Node& node() const { return node_; }
+  [[nodiscard]] std::uint64_t dropped_frames() const { return dropped_frames_; }
+
+ private:
+  void send() {
+    const auto frames = frames_.frames();
+    dropped_frames_ += frames.size() - bus_->try_send(frames);
+  }
+
+  BusType* bus_;
+  Ticks* ticks_;
+  Node node_;
+  can::FrameList frames_;
+  std::uint32_t last_tick_ = 0;
+  std::uint64_t dropped_frames_ = 0;
+};
+
+}  // namespace striker::loop

@@ -1,0 +1,16 @@
+# Arm's MPS2 board with the FPGA image of Application Note AN386.
+striker_add_board(
+  NAME mps2-an386
+  CPU cortex-m4
+  LABEL Cortex-M4F
+  FLASH_ORIGIN 0x00000000
+  FLASH 4M
+  RAM_ORIGIN 0x20000000
+  RAM 4M
+  CLOCK_HZ 25000000
+  SOURCES cortex_m/startup.cpp
+  CLOCK cortex_m/systick_clock.cpp
+  CAN slcan
+  UART devices/cmsdk_uart.cpp
+  DEFINITIONS STRIKER_UART=0x40004000
+  QEMU_MACHINE mps2-an386)

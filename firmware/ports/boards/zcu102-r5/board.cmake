@@ -1,0 +1,20 @@
+# AMD's ZCU102: the Zynq UltraScale+ MPSoC's first Cortex-R5F, with the on-chip memory for everything. The timer counts
+# the low-power domain's 100 MHz. QEMU 7.2 has the R5 as its fifth processor, and leaves it switched off.
+striker_add_board(
+  NAME zcu102-r5
+  CPU cortex-r5
+  LABEL Cortex-R5F
+  FLASH_ORIGIN 0xFFFC0000
+  FLASH 232K
+  RAM_ORIGIN 0xFFFFA000
+  RAM 24K
+  CLOCK_HZ 100000000
+  SOURCES cortex_r/startup.cpp
+  CLOCK ttc_clock.cpp
+  CAN slcan
+  UART cadence_uart.cpp
+  QEMU_MACHINE xlnx-zcu102
+  QEMU_SYSTEM qemu-system-aarch64
+  QEMU_ARGUMENTS -smp 5 -m 128M -audiodev none,id=a -S -global xlnx-zynqmp.boot-cpu=rpu-cpu[0]
+                 -device loader,file={image},cpu-num=4
+  QEMU_POWER_ON /machine/soc/rpu-cluster/rpu-cpu[0])

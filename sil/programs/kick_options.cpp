@@ -1,0 +1,95 @@
+#include "sil/programs/kick_options.hpp"
+
+#include <stdexcept>
+#include <vector>
+
+#include "sil/bus/bit_rate.hpp"
+#include "sil/robot/plant.hpp"
+
+namespace striker::sil {
+
+namespace {
+
+std::string bus_problem(const std::string& bus) {
+  return bus == "inproc" || bus.starts_with("can:") ? std::string()
+                                                    : "give inproc or can:IFACE, as can:vcan0";
+}
+
+std::vector<std::string> plant_names() {
+  std::vector<std::string> names;
+  for (const PlantKind kind : plant_kinds) {
+    names.emplace_back(name_of(kind));
+  }
+  return names;
+}
+
+void define_episodes(CLI::App& kick, KickOptions& options) {
+  kick.add_option("--plant", options.plant, "servo: the paper's motors, 10 ms; drive: torque drives, 1 ms")
+      ->check(CLI::IsMember(plant_names()))
+      ->capture_default_str();
+  kick.add_option("--pose", options.pose, "where the robot stands")
+      ->check(CLI::IsMember({"origin", "anywhere"}))
+      ->capture_default_str();
+  kick.add_option("--episodes", options.episodes, "how many")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{900000}))
+      ->capture_default_str();
+  kick.add_option("--first", options.first,
+                  "number of the first episode: each is a function of seed and number")
+      ->capture_default_str();
+  kick.add_option("--seed", options.seed, "of the episodes")->capture_default_str();
+}
+
+void define_bus_time(CLI::App& kick, KickOptions& options) {
+  auto* bitrate = kick.add_option("--bitrate", options.bitrate,
+                                  "lockstep: frames take bus time at this rate, in bit/s, and arbitrate");
+  bitrate->check(CLI::Validator(bit_rate_problem, "bit/s"));
+  kick.add_option("--step-us", options.step_us, "with --bitrate: from SYNC to the controller's frames")
+      ->check(CLI::Range(0.0, 900.0))
+      ->needs(bitrate)
+      ->capture_default_str();
+  kick.add_option("--vision-phase-us", options.vision_phase_us, "with --bitrate: from SYNC to the picture")
+      ->check(CLI::Range(0.0, 999.0))
+      ->needs(bitrate)
+      ->capture_default_str();
+}
+
+void define_clock(CLI::App& kick, KickOptions& options) {
+  kick.add_flag("--realtime", options.real_time, "run at wall-clock speed, without SYNC");
+  kick.add_option("--answer-timeout", options.answer_timeout_ms,
+                  "lockstep: run on unanswered after this, in ms")
+      ->check(CLI::Range(1, 3600000))
+      ->capture_default_str();
+  kick.add_option("--start-timeout", options.start_timeout_ms, "lockstep: wait for a controller, in ms")
+      ->check(CLI::Range(1, 3600000))
+      ->capture_default_str();
+}
+
+void define_files(CLI::App& kick, KickOptions& options) {
+  kick.add_option("--json", options.json, "write the summary and every episode");
+  kick.add_option("--log", options.log, "write the bus as a candump log (candump -L)");
+  kick.add_option("--decisions", options.decisions,
+                  "write the controller's state at each decision as CSV (inproc)");
+}
+
+}  // namespace
+
+void define(CLI::App& kick, KickOptions& options) {
+  kick.add_option("--bus", options.bus, "inproc: the controller in this process; can:IFACE: over SocketCAN")
+      ->check(bus_problem)
+      ->capture_default_str();
+  define_episodes(kick, options);
+  define_bus_time(kick, options);
+  define_clock(kick, options);
+  define_files(kick, options);
+}
+
+void require_sound(const KickOptions& options) {
+  if (options.real_time && !options.in_process() && options.bitrate != 0) {
+    throw std::runtime_error("--bitrate is for lockstep: leave out --realtime, or use --bus inproc");
+  }
+  if (!options.decisions.empty() && !options.in_process()) {
+    throw std::runtime_error("--decisions reads the controller's own state: use it with --bus inproc");
+  }
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,35 @@
+// The command line of `striker-sil kick`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+namespace striker::sil {
+
+struct KickOptions {
+  std::string bus = "inproc";
+  std::string plant = "drive";
+  std::string pose = "origin";
+  std::uint64_t episodes = 20;
+  std::uint64_t first = 0;
+  std::uint64_t seed = 1;
+  bool real_time = false;
+  std::int64_t bitrate = 0;  // 0: the bus takes no time
+  double step_us = 50.0;
+  double vision_phase_us = 0.0;
+  unsigned answer_timeout_ms = 1000;
+  unsigned start_timeout_ms = 10000;
+  std::string json;
+  std::string log;
+  std::string decisions;
+
+  [[nodiscard]] bool in_process() const { return bus == "inproc"; }
+};
+
+void define(CLI::App& kick, KickOptions& options);
+
+// Throws std::runtime_error with one line that names what does not go together, and the way out.
+void require_sound(const KickOptions& options);
+
+}  // namespace striker::sil

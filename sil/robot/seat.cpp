@@ -1,0 +1,45 @@
+#include "sil/robot/seat.hpp"
+
+namespace striker::sil {
+
+Seat::Seat(const SeatParts& parts) : parts_(parts) {}
+
+void Seat::take_picture(const World& world) {
+  for (const can::Frame& frame : vision_.frames(parts_.camera.look(world))) {
+    queue(frame);
+  }
+}
+
+void Seat::begin_tick(std::uint32_t tick) {
+  answer_.clear();
+  traffic_.clear();
+  if (tick != 0) {
+    parts_.drives.report(parts_.plant.measured(), tick, queued_);
+  }
+  if (parts_.lockstep) {
+    queue(can::send(can::Sync{.tick = static_cast<std::int32_t>(tick)}, sync_counter_));
+  }
+  for (const can::Frame& frame : queued_) {
+    traffic_.push_back({frame, tick * host::tick_period_ns});
+  }
+  parts_.link.send(tick, queued_);
+  queued_.clear();
+}
+
+void Seat::end_tick(std::uint32_t tick) {
+  parts_.link.collect(tick, answer_);
+  for (const can::Frame& frame : answer_) {
+    parts_.drives.take(frame, tick);
+    traffic_.push_back({frame, tick * host::tick_period_ns});
+  }
+}
+
+void Seat::actuate(World& world, std::uint32_t tick) {
+  parts_.plant.actuate(world, parts_.drives.orders(), parts_.drives.cut(tick));
+}
+
+std::span<const StampedFrame> Seat::traffic() const {
+  return parts_.link.timed_traffic().value_or(traffic_);
+}
+
+}  // namespace striker::sil

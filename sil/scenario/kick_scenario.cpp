@@ -1,0 +1,140 @@
+#include "sil/scenario/kick_scenario.hpp"
+
+#include "firmware/core/controller.hpp"
+
+namespace striker::sil {
+
+namespace {
+
+constexpr std::uint32_t picture_ticks = core::decision_period_ticks;  // an AI Soccer frame
+constexpr std::uint32_t boot_ticks = 50;
+constexpr std::uint32_t clear_tick = 20;
+constexpr std::uint32_t arm_tick = picture_ticks + 1;
+constexpr std::uint32_t first_decision_tick = 2 * picture_ticks;
+constexpr std::uint32_t last_tick = first_decision_tick + kick_decisions * core::decision_period_ticks;
+constexpr std::uint32_t episode_ticks = last_tick + 100;
+
+}  // namespace
+
+KickScenario::KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer* const> observers)
+    : plan_(plan), seat_(&seat), observers_(observers), world_(kick_world(seat.ticks_per_step() * tick_s)) {
+  look();
+}
+
+void KickScenario::run(const std::function<bool()>& stop) {
+  bool running = boot(stop);
+  for (std::uint64_t i = 0; running && i < plan_.episodes; ++i) {
+    running = play_episode(plan_.first_episode + i, stop);
+  }
+  moving_ = false;
+  snapshot_.deciding = false;
+  seat_->queue(operator_.order(can::Mode::disarm));
+  run_tick();
+  for (Observer* observer : observers_) {
+    observer->end_run();
+  }
+}
+
+// Returns false if it was stopped.
+bool KickScenario::boot(const std::function<bool()>& stop) {
+  while (tick_ < boot_ticks) {
+    run_tick();
+    if (stop()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Returns false if it was stopped.
+bool KickScenario::play_episode(std::uint64_t episode, const std::function<bool()>& stop) {
+  const KickStart start = draw_kick(plan_.seed, episode, plan_.pose);
+  snapshot_.episode = episode;
+  moving_ = false;
+  seat_->reset();
+  for (std::uint32_t episode_tick = 0; episode_tick < episode_ticks; ++episode_tick) {
+    place(episode_tick, start);
+    snapshot_.deciding = episode_tick >= first_decision_tick && episode_tick < last_tick;
+    snapshot_.contact = moving_ && episode_.outcome().contact;
+    give_orders(episode_tick);
+    if (episode_tick % picture_ticks == 0) {
+      seat_->take_picture(world_);
+    }
+    run_tick();
+    if (stop()) {
+      return false;
+    }
+  }
+  outcomes_.push_back(episode_.outcome());
+  for (Observer* observer : observers_) {
+    observer->end_episode();
+  }
+  return true;
+}
+
+// Until decision 0 the scenario leads robot and ball; then they are the world's.
+void KickScenario::place(std::uint32_t episode_tick, const KickStart& start) {
+  if (episode_tick == 0) {
+    world_.place_robot(0, start.robot);
+  }
+  if (episode_tick < first_decision_tick) {
+    world_.place_ball(ball_before(start, (first_decision_tick - episode_tick) * tick_s));
+    look();
+  } else if (episode_tick == first_decision_tick) {
+    episode_.begin(world_, start);
+    look();
+    moving_ = true;
+  } else if (episode_tick <= last_tick && episode_tick % core::decision_period_ticks == 0) {
+    episode_.end_decision();
+  }
+}
+
+void KickScenario::give_orders(std::uint32_t episode_tick) {
+  if (episode_tick == 0) {
+    seat_->queue(operator_.order(can::Mode::disarm));
+  } else if (episode_tick == clear_tick && operator_.controller_faulty()) {
+    seat_->queue(operator_.order(can::Mode::clear));
+  } else if (episode_tick == arm_tick) {
+    seat_->queue(operator_.order(can::Mode::arm));
+  }
+}
+
+// One tick of the bus and the world, with what was queued for it.
+void KickScenario::run_tick() {
+  for (Observer* observer : observers_) {
+    observer->begin_tick();
+  }
+  seat_->begin_tick(tick_);
+  seat_->end_tick(tick_);
+  operator_.hear(seat_->answer());
+  if (moving_ && tick_ % seat_->ticks_per_step() == 0) {
+    move_world();
+  }
+  show();
+  ++tick_;
+}
+
+void KickScenario::move_world() {
+  seat_->actuate(world_, tick_);
+  episode_.step(world_);
+  seat_->sense(world_);
+  look();
+}
+
+// Reads the true world; to be called whenever it has changed.
+void KickScenario::look() {
+  robot_.pose = world_.robot_pose(seat_->robot());
+  robot_.velocity_m_s = world_.robot_velocity_m_s(seat_->robot());
+  snapshot_.ball = world_.ball();
+}
+
+void KickScenario::show() {
+  robot_.frames = seat_->traffic();
+  snapshot_.robots = std::span(&robot_, 1);
+  snapshot_.tick = tick_;
+  for (Observer* observer : observers_) {
+    observer->end_tick(snapshot_);
+  }
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,67 @@
+// Plays kick episodes with one seat, one tick of 1 ms at a time: the operator's orders, when a picture is
+// taken, and when the world moves.
+//
+// An episode takes 2,200 ticks: disarm and the first picture; 50 ticks later the second, then arm; 50 later
+// the third, which is decision 0 and starts the ball; 40 decisions; 100 ticks to see the ball leave. Until
+// decision 0 the robot is held and the ball led along its path. A latched fault is cleared before arming.
+// Tick 0 is SYNC alone, and the first episode begins at tick 50.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sil/record/observer.hpp"
+#include "sil/robot/seat.hpp"
+#include "sil/scenario/operator.hpp"
+#include "sil/task/kick_task.hpp"
+
+namespace striker::sil {
+
+struct KickPlan {
+  PoseMode pose = PoseMode::origin;
+  std::uint64_t seed = 1;
+  std::uint64_t first_episode = 0;
+  std::uint64_t episodes = 20;
+};
+
+class KickScenario {
+ public:
+  // Makes the world that the seat's robot, number 0, stands in. Seat and observers outlive it.
+  KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer* const> observers);
+
+  // All episodes, or those that were completed before `stop`, which is asked after every tick; leaves the
+  // controller disarmed.
+  void run(const std::function<bool()>& stop);
+
+  [[nodiscard]] const std::vector<KickOutcome>& outcomes() const { return outcomes_; }
+  [[nodiscard]] double simulated_s() const { return tick_ * tick_s; }
+  [[nodiscard]] const std::string& policy() const { return operator_.policy(); }
+
+ private:
+  bool boot(const std::function<bool()>& stop);
+  bool play_episode(std::uint64_t episode, const std::function<bool()>& stop);
+  void place(std::uint32_t episode_tick, const KickStart& start);
+  void give_orders(std::uint32_t episode_tick);
+  void run_tick();
+  void move_world();
+  void look();
+  void show();
+
+  KickPlan plan_;
+  Seat* seat_;
+  std::span<Observer* const> observers_;
+  World world_;
+  Operator operator_;
+
+  std::uint32_t tick_ = 0;
+  KickEpisode episode_;
+  bool moving_ = false;  // the world runs
+  RobotSnapshot robot_;
+  Snapshot snapshot_;
+  std::vector<KickOutcome> outcomes_;
+};
+
+}  // namespace striker::sil

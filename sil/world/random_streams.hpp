@@ -1,0 +1,37 @@
+// Which number each use of randomness has as the tag of its sil::Random: a stream of its own, so that a new kind of
+// draw disturbs no other. This is the only list of them. Below 100 the task draws an episode, from 100 on a trainer
+// learns from it; a test that draws for itself takes any number, as it shares its seed with nobody.
+//
+// A number is part of every result that was drawn from it: add new ones at the end, and change none.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace striker::sil::random_stream {
+
+inline constexpr std::uint64_t ball = 1;       // index: the episode
+inline constexpr std::uint64_t pose = 2;       // index: the episode
+inline constexpr std::uint64_t weights = 101;  // the network that a training begins with
+inline constexpr std::uint64_t exploration = 102;
+inline constexpr std::uint64_t sampling = 103;      // from the replay buffer
+inline constexpr std::uint64_t calibration = 104;   // random play before an export; index: the episode
+inline constexpr std::uint64_t dummies = 105;       // inputs that say nothing; index: the episode
+inline constexpr std::uint64_t bootstrap = 106;     // resampled runs of an experiment
+inline constexpr std::uint64_t random_rival = 107;  // index: the episode
+
+namespace detail {
+
+consteval bool all_differ() {
+  std::array numbers = {ball,        pose,    weights,   exploration, sampling,
+                        calibration, dummies, bootstrap, random_rival};
+  std::sort(numbers.begin(), numbers.end());
+  return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
+}
+
+}  // namespace detail
+
+static_assert(detail::all_differ(), "two uses of randomness would draw the same numbers");
+
+}  // namespace striker::sil::random_stream

@@ -1,0 +1,101 @@
+// A controller's node on a test bench: pictures every 50 ticks, wheel states every tick, each of which a test
+// may withhold, and what it last answered.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "firmware/can/codec.hpp"
+#include "firmware/loop/built_in_node.hpp"
+
+namespace striker::loop {
+
+class NodeRig {
+ public:
+  bool send_vision = true;
+  bool send_wheels = true;
+  std::int32_t ball_y_quarter_mm = 0;  // where it begins to come straight to the robot
+  can::WheelState wheels;
+  std::vector<can::Frame> extra;  // for the next tick only
+  core::Fault port_fault = core::Fault::none;
+  BuiltInNode node{built_in_robot};
+
+  void tick() {
+    std::vector<can::Frame> frames = std::exchange(extra, {});
+    if (send_wheels) {
+      frames.push_back(can::send(wheels, wheel_counter_));
+    }
+    if (send_vision && now_ % 50 == 0) {
+      // The ball lies ahead and comes closer: something to decide about.
+      const auto frame = static_cast<std::int32_t>(now_ / 50 % 16);
+      const std::int32_t x_quarter_mm = 8000 - static_cast<std::int32_t>(now_ % 4000);
+      frames.push_back(can::send(can::VisionPose{.frame = frame}, pose_counter_));
+      frames.push_back(can::send(can::VisionBall{.frame = frame,
+                                                 .x_quarter_mm = x_quarter_mm,
+                                                 .y_quarter_mm = ball_y_quarter_mm * x_quarter_mm / 8000},
+                                 ball_counter_));
+    }
+    step(frames);
+  }
+
+  void step(std::span<const can::Frame> frames) {
+    answer({.number = now_, .frames = frames, .port_fault = port_fault});
+    ++now_;
+  }
+
+  // A port hands something in between two ticks.
+  void answer(const Tick& tick) {
+    node.step(tick, sent);
+    ASSERT_FALSE(sent.frames().empty());
+    ASSERT_EQ(can::receive(sent.frames().back(), command_counter_, command), can::Verdict::accepted);
+    for (const can::Frame& frame : sent.frames()) {
+      can::Decision made;
+      if (can::is<can::Decision>(frame) && can::unpack(frame, made) == can::Verdict::accepted) {
+        decision = made;
+      }
+    }
+  }
+
+  void run(std::uint32_t ticks) {
+    for (std::uint32_t i = 0; i < ticks; ++i) {
+      tick();
+    }
+  }
+
+  void mode(can::Mode mode) {
+    extra.push_back(can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, mode_counter_));
+  }
+  void stop() { extra.push_back(can::send(can::EmergencyStop{}, stop_counter_)); }
+
+  void arm() {
+    run(160);
+    mode(can::Mode::arm);
+    tick();
+    ASSERT_EQ(state(), core::State::active);
+    run(50);
+  }
+
+  [[nodiscard]] core::State state() const { return node.controller().state(); }
+  [[nodiscard]] core::Fault fault() const { return node.controller().fault(); }
+  [[nodiscard]] bool torque() const { return command.left_torque_mNm != 0 || command.right_torque_mNm != 0; }
+  [[nodiscard]] std::uint32_t now() const { return now_; }
+
+  can::WheelCommand command;
+  std::optional<can::Decision> decision;  // the last one
+  can::FrameList sent;                    // in the last tick
+
+ private:
+  std::uint32_t now_ = 0;
+  can::SendCounter wheel_counter_;
+  can::SendCounter pose_counter_;
+  can::SendCounter ball_counter_;
+  can::SendCounter mode_counter_;
+  can::SendCounter stop_counter_;
+  can::ReceiveCounter command_counter_;
+};
+
+}  // namespace striker::loop

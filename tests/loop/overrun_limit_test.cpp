@@ -1,0 +1,58 @@
+// The overrun rule against a plain count over the ticks themselves.
+#include "firmware/loop/overrun_limit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <random>
+
+namespace striker::loop {
+namespace {
+
+TEST(OverrunLimit, OneMissedTickCountsForTheWindowAndNoLonger) {
+  OverrunLimit none(0);
+  EXPECT_FALSE(none.exceeded_by(1, 0));
+  EXPECT_TRUE(none.exceeded_by(3, 1));
+  for (std::uint32_t tick = 4; tick < 1000; ++tick) {
+    ASSERT_TRUE(none.exceeded_by(tick, 0)) << tick;
+  }
+  EXPECT_FALSE(none.exceeded_by(1000, 0));
+}
+
+TEST(OverrunLimit, AStallLongerThanTheWindowIsTheWholeWindow) {
+  OverrunLimit all(OverrunLimit::window_ticks - 2);
+  EXPECT_TRUE(all.exceeded_by(100'999, 50'000));
+  OverrunLimit more(OverrunLimit::window_ticks);
+  EXPECT_FALSE(more.exceeded_by(100'999, 50'000));
+}
+
+// Never fewer than the missed ticks of the last 901, never more than those of the last 1,000.
+TEST(OverrunLimit, LiesBetweenTheShortestAndTheLongestWindow) {
+  std::mt19937 random(1);
+  std::uint32_t tick = 0;
+  std::deque<std::uint32_t> missed_ticks;
+  std::vector<OverrunLimit> limits;
+  for (std::uint32_t limit = 0; limit < 1000; ++limit) {
+    limits.emplace_back(limit);
+  }
+  for (int wake = 0; wake < 3000; ++wake) {
+    const std::uint32_t missed = random() % 50 == 0 ? static_cast<std::uint32_t>(random() % 120) : 0;
+    for (std::uint32_t i = 1; i <= missed; ++i) {
+      missed_ticks.push_back(tick + i);
+    }
+    tick += missed + 1;
+    const auto within = [&](std::uint32_t window) {
+      return static_cast<std::uint32_t>(std::count_if(missed_ticks.begin(), missed_ticks.end(),
+                                                      [&](std::uint32_t t) { return tick - t < window; }));
+    };
+    std::uint32_t counted = 0;
+    for (OverrunLimit& limit : limits) {
+      counted += limit.exceeded_by(tick, missed) ? 1 : 0;
+    }
+    ASSERT_GE(counted, within(901)) << tick;
+    ASSERT_LE(counted, within(1000)) << tick;
+  }
+}
+
+}  // namespace
+}  // namespace striker::loop

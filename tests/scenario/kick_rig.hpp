@@ -1,0 +1,67 @@
+// A kick scenario in one call: robot 0 with its own drives and camera, behind any link.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sil/robot/striker_drives.hpp"
+#include "sil/scenario/kick_scenario.hpp"
+
+namespace striker::sil {
+
+class KickRig {
+ public:
+  explicit KickRig(ControllerLink& link, PlantKind kind = PlantKind::drive)
+      : plant_(make_plant(kind, 0, Role::forward)),
+        seat_({.plant = *plant_, .drives = drives, .camera = camera_, .link = link}) {}
+
+  std::vector<KickOutcome> play(
+      const KickPlan& plan, const std::vector<Observer*>& observers = {},
+      const std::function<bool()>& stop = [] { return false; }) {
+    KickScenario scenario(plan, seat_, observers);
+    scenario.run(stop);
+    return scenario.outcomes();
+  }
+
+  StrikerDrives drives;
+
+ private:
+  std::unique_ptr<Plant> plant_;
+  ExactCamera camera_{0};
+  Seat seat_;
+};
+
+// Keeps every frame of the bus.
+class BusRecord final : public Observer {
+ public:
+  std::vector<StampedFrame> frames;
+
+  void end_tick(const Snapshot& snapshot) override {
+    const auto seen = snapshot.robots.front().frames;
+    frames.insert(frames.end(), seen.begin(), seen.end());
+  }
+};
+
+// Calls a function at the end of every tick.
+class AtEndOfTick final : public Observer {
+ public:
+  explicit AtEndOfTick(std::function<void(const Snapshot&)> call) : call_(std::move(call)) {}
+  void end_tick(const Snapshot& snapshot) override { call_(snapshot); }
+
+ private:
+  std::function<void(const Snapshot&)> call_;
+};
+
+inline void expect_same(const std::vector<StampedFrame>& a, const std::vector<StampedFrame>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].frame, b[i].frame) << i;
+    ASSERT_EQ(a[i].received_ns, b[i].received_ns) << i;
+  }
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,64 @@
+// Everything that a learner is made from. training/configs/paper.toml says what each number means to a user, and holds
+// the defaults: a configuration sets all of them, these are only zeros.
+#pragma once
+
+#include <vector>
+
+#include "training/learner/network.hpp"
+#include "training/task/state.hpp"
+
+namespace striker::training {
+
+// How a number goes from its first value to its last one.
+enum class Course { linear, cosine, exponential };
+
+struct LearnerConfig {
+  double gamma = 0.0;               // discount of a reward one decision later, 0 to 1
+  int n_step = 0;                   // decisions whose rewards are summed before the target network's value
+  bool cut_at_exploration = false;  // that sum ends before a random action (Watkins's rule)
+  bool double_dqn = false;        // the online network chooses the next action, the target network values it
+  bool huber = false;             // linear loss beyond a TD error of 1
+  bool augment_mirrored = false;  // half of the samples are seen in a mirror; `learner.mirror` in TOML
+  int batch = 0;                  // transitions a gradient step
+  int replay_size = 0;            // transitions
+  int warm_up = 0;                // decisions before the first gradient step
+  int target_period = 0;          // gradient steps between two updates of the target network
+  double target_rate = 0.0;       // the share of the way that it then goes; 1 copies
+  int gradient_steps = 0;         // a decision
+  double clip_norm = 0.0;         // longest gradient (Euclidean norm); 0: any
+  bool int8_weights = false;      // plays and differentiates with rounded weights
+  bool prioritised = false;
+  double priority_exponent = 0.0;    // alpha of Schaul et al. 2016
+  double priority_correction = 0.0;  // beta at the start; 1 at the end
+};
+
+struct OptimiserConfig {
+  double learning_rate = 0.0;   // of Adam
+  double final_fraction = 0.0;  // of it, at the last episode
+  Course schedule = Course::linear;
+  double averaging = 0.0;  // of the weights: about 1 / (1 - this) gradient steps; 0: none
+};
+
+struct ExplorationConfig {
+  double epsilon_start = 0.0;  // probability of a random action
+  double epsilon_end = 0.0;
+  int decay_episodes = 0;
+  Course schedule = Course::linear;
+};
+
+// The task's symmetry: factors of the inputs, and the action that is each action's image (-1: it has none).
+struct MirrorImage {
+  Features factors;
+  std::vector<int> actions;
+};
+
+struct LearnerSetup {
+  Shape shape;
+  LearnerConfig learner;
+  OptimiserConfig optimiser;
+  ExplorationConfig exploration;
+  int planned_episodes = 0;  // the schedules end with them
+  MirrorImage mirror;        // for `augment_mirrored`
+};
+
+}  // namespace striker::training

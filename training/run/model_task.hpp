@@ -1,0 +1,15 @@
+// The task that a model was trained for.
+#pragma once
+
+#include <filesystem>
+
+#include "training/model/model.hpp"
+#include "training/task/task_config.hpp"
+
+namespace striker::training {
+
+// From the configuration that the model holds. `config_file` tells it of a model that holds none; without either it is
+// the official task with the RCS state. Throws std::runtime_error if inputs or actions do not fit the network.
+[[nodiscard]] TaskConfig task_of(const Model& model, const std::filesystem::path& config_file);
+
+}  // namespace striker::training
