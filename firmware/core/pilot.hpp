@@ -87,7 +87,8 @@ class Pilot {
     set_point_ = {};
   }
 
-  [[nodiscard]] Decision decide(RelativeState now, bool extrapolated) {
+  [[nodiscard]] Decision decide(const RelativeState& seen, bool extrapolated) {
+    RelativeState now = seen;
     const auto made =
         static_cast<std::int32_t>(std::min<std::uint32_t>(decisions_, policy::decisions_a_kick));
     now.decisions_left = policy::decisions_a_kick - made;

@@ -33,7 +33,7 @@ ARROWS = {
     "sil/world": ["firmware/core"],
     "sil/task": ["sil/world", "firmware/core", "firmware/host", "firmware/policy"],
     "sil/bus": ["firmware/can", "firmware/core", "firmware/host", "firmware/loop"],
-    "sil/robot": ["sil/bus", "sil/world", "firmware/can", "firmware/core"],
+    "sil/robot": ["sil/bus", "sil/world", "firmware/can", "firmware/core", "firmware/loop"],
     "sil/fault": ["sil/bus", "sil/robot", "firmware/can"],
     "sil/record": ["sil/robot", "sil/bus", "sil/task", "sil/world", "firmware/can", "firmware/core", "firmware/host",
                    "firmware/loop", "firmware/policy"],
