@@ -26,7 +26,7 @@ class ControllerNode {
   // Replaces what is in `frames`.
   void step(const Tick& tick, can::FrameList& frames) {
     if (tick.restart) {
-      *this = ControllerNode(controller_.robot());
+      restart();
     }
     frames.clear();
     core::Actions actions;
@@ -46,6 +46,9 @@ class ControllerNode {
  private:
   static constexpr std::size_t end_of_tick = 1;  // lockstep adds it
   static_assert(can::Reporter::most_frames + Drives::most_frames + end_of_tick <= can::FrameList::capacity);
+
+  // Apart from `step`, whose stack would hold the new node too.
+  [[gnu::noinline]] void restart() { *this = ControllerNode(controller_.robot()); }
 
   can::Receiver receiver_;
   Drives drives_;
