@@ -21,6 +21,19 @@ class FrameList {
       frames_[count_++] = frame;
     }
   }
+  // Drops the frames that `may_stay` refuses; returns how many.
+  template <class Predicate>
+  std::size_t keep(Predicate may_stay) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (may_stay(frames_[i])) {
+        frames_[kept++] = frames_[i];
+      }
+    }
+    const std::size_t dropped = count_ - kept;
+    count_ = kept;
+    return dropped;
+  }
   [[nodiscard]] std::span<const Frame> frames() const { return std::span(frames_).first(count_); }
 
  private:

@@ -18,6 +18,7 @@
 #include "firmware/can/frame_list.hpp"
 #include "firmware/core/robot_profile.hpp"
 #include "firmware/loop/tick.hpp"
+#include "firmware/safety/whitelist.hpp"
 
 namespace striker::loop {
 
@@ -57,9 +58,12 @@ class TickLoop {
   [[nodiscard]] const Node& node() const { return node_; }
   [[nodiscard]] std::remove_reference_t<BusType>& bus() { return bus_; }
   [[nodiscard]] std::uint64_t dropped_frames() const { return dropped_frames_; }
+  // That the whitelist did not let out: none, as long as the node is sound.
+  [[nodiscard]] std::uint64_t refused_frames() const { return refused_frames_; }
 
  private:
   void send() {
+    refused_frames_ += frames_.keep(safety::may_send);
     const auto frames = frames_.frames();
     dropped_frames_ += frames.size() - bus_.try_send(frames);
   }
@@ -70,6 +74,7 @@ class TickLoop {
   can::FrameList frames_;
   std::uint32_t last_tick_ = 0;
   std::uint64_t dropped_frames_ = 0;
+  std::uint64_t refused_frames_ = 0;
 };
 
 }  // namespace striker::loop

@@ -195,6 +195,30 @@ TEST_F(BoardLoop, AFloodTakesItsShareOfATickAndNoMore) {
   EXPECT_EQ(state(), core::State::active);
 }
 
+// A node that has gone mad: what it may not send does not go out.
+class MadNode {
+ public:
+  explicit MadNode(const core::RobotProfile&) {}
+  void step(const Tick&, can::FrameList& frames) {
+    frames.clear();
+    frames.add({.id = 0x040, .length = 2, .data = {}});  // an operator's command
+    frames.add({.id = 0x050, .length = 8, .data = {}});
+    frames.add({.id = 0x050, .length = 7, .data = {}});
+  }
+};
+
+TEST(TickLoop, OnlyWhatIsOnTheWhitelistGoesOut) {
+  LogicalClock clock;
+  MemoryBus<std::int32_t> bus;
+  ClockTicks<LogicalClock> ticks(clock, {.frames_per_tick = 24, .overrun_limit = 50});
+  TickLoop<MadNode, MemoryBus<std::int32_t>&, ClockTicks<LogicalClock>&> loop(built_in_robot, bus, ticks);
+  loop.turn();
+  ASSERT_EQ(bus.sent.size(), 1U);
+  EXPECT_EQ(bus.sent.front().id, 0x050);
+  EXPECT_EQ(bus.sent.front().length, 8);
+  EXPECT_EQ(loop.refused_frames(), 2U);
+}
+
 TEST_F(BoardLoop, TheEndTakesTheTorque) {
   turn_until(260);
   bus_.sent.clear();

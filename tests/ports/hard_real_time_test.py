@@ -16,7 +16,7 @@ LIBRARY = sys.argv.pop()
 BIN = sys.argv.pop()
 
 TICKS = 100_000
-# The list of firmware/ports/linux/executor.hpp for a bus without a socket; where the machine has no vDSO clock,
+# The list of firmware/ports/linux/run_real_time.hpp for a bus without a socket; where the machine has no vDSO clock,
 # reading it is a system call too.
 LISTED = {"clock_nanosleep", "clock_gettime"}
 
@@ -74,7 +74,7 @@ class HardRealTime(unittest.TestCase):
         self.assertGreaterEqual(inside.count("clock_nanosleep"), TICKS - 1)
 
     def test_what_was_asked_of_the_kernel_is_printed(self):
-        result = run(firmware(20, "--policy", "other", "--cpu", "0", "--frames-per-tick", "9"))
+        result = run(firmware(20, "--scheduler", "other", "--cpu", "0", "--frames-per-tick", "9"))
         for line in ("processor 0", "SCHED_OTHER", "a tick every 100 us, at most 9 frames", "fault beyond 1000 missed",
                      "stopped after 20 ticks"):
             self.assertIn(line, result.stdout)

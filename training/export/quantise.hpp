@@ -2,7 +2,7 @@
 //
 // Scales are powers of two, one a layer. Activations: the greatest scale at which everything that was met in
 // play (the calibration states), with a margin, stays below 2^15. Weights: the greatest scale at which they
-// fit their type and no input whatever can drive a sum out of 32 bits (the proof of policy_proof.hpp). That
+// fit their type and no input whatever can drive a sum out of 32 bits (the proof of firmware/policy/proof.hpp). That
 // leaves some weights few bits, so they are rounded with error feedback: the choices that plain rounding
 // would change become several times fewer.
 #pragma once

@@ -1,0 +1,26 @@
+// Over every identifier and length: what may be sent is what the message table says the controller sends.
+#include "firmware/safety/whitelist.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <utility>
+
+namespace striker::safety {
+namespace {
+
+TEST(Whitelist, HoldsTheControllersMessagesAndNothingElse) {
+  // Written down here, not taken from the table.
+  const std::set<std::pair<int, int>> wanted = {{0x020, 7}, {0x050, 8}, {0x100, 8}, {0x110, 7},
+                                                {0x120, 8}, {0x700, 4}, {0x710, 6}, {0x7F0, 6}};
+  for (int id = 0; id <= 0xFFFF; ++id) {
+    for (int length = 0; length <= 8; ++length) {
+      const can::Frame frame{
+          .id = static_cast<std::uint16_t>(id), .length = static_cast<std::uint8_t>(length), .data = {}};
+      ASSERT_EQ(may_send(frame), wanted.contains({id, length})) << id << " " << length;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace striker::safety
