@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake --install: headers, libraries, the DBC, and a package, so that find_package(striker) gives striker::core and the
 # other parts. Headers are included as here, "firmware/core/controller.hpp".
 include(GNUInstallDirs)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a node stands on its bus (ISO 11898-1, "Fault confinement"): it counts errors, and takes itself off the
 // bus before it disturbs the others for long.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Packs, protects, checks and unpacks: from a message to a frame and back, driven by the table alone.
 //
 // Receive order: identifier (the caller's dispatch), exact length, CRC, counter, range; then the whole

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The identifiers that the controller listens to: no other frame can move it. A port filters by them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/can/dbc.hpp"
 
 #include "firmware/can/messages.hpp"

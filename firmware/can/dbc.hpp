@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints the message table as a DBC file, for candump users, cantools, canmatrix, SavvyCAN and the like.
 #pragma once
 

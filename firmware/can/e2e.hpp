@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // End-to-end protection after AUTOSAR E2E Profile 2: CRC-8 in byte 0, a 4-bit counter in the low half of
 // byte 1. The CRC (polynomial 0x2F, init and final XOR 0xFF) runs over the message's 16-bit data ID, low byte
 // first, then bytes 1 to the end. Polynomial 0x2F detects all errors of up to 3 bits at these lengths.

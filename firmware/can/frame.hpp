@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A classic CAN 2.0A data frame: 11-bit identifier, 0 to 8 bytes. Extended, remote and error frames never
 // reach this type; the ports handle them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vocabulary of the message table: what a signal and a message are, and when a table is sound.
 //
 // A message is a plain struct of 32-bit integers, one a signal, in raw counts. Bits are numbered as in a DBC

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One protected message as a receiver knows it: its counter, and how long that is remembered.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The message table: the single source of every frame on the bus. It packs and unpacks, drives the receive
 // checks, is verified by the compiler, and prints the DBC (`striker-dbc`).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller's receive side: every frame is checked, then taken whole or ignored whole and counted, and
 // what was taken is returned as percepts.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/can/reporter.hpp"
 
 #include "firmware/core/tick.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller's send side but for the drives: frames of what it says, each when it is due.
 //
 // In the order of sending: Decision in the tick that made one; FaultReport at a fault and every 100 ms while

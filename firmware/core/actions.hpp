@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the controller says in a tick: what the wheels are to do, and what is told about it.
 #pragma once
 

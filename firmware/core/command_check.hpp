@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The final check of every drive command, after everything else: what does not have a cause in this tick, or
 // breaks a limit of the robot, does not go out.
 //

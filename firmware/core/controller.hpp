@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller of one robot: one `step` a tick of 1 ms, from what is perceived to what the wheels do.
 //
 //   sense -> supervise -> every 50 ticks: relative state -> policy -> set-point -> wheel loops -> final check

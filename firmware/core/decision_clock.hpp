@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When the policy decides: once every `decision_period_ticks`, in phase with the camera as long as it can.
 //
 // A new picture within `decision_window_ticks` of the expected time decides in its own tick and restarts the

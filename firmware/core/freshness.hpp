@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When something last came, and whether that is recent enough.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the controller is told in a tick: the part of the world that a receiver took from the bus.
 //
 // Whoever fills this has checked it: protection, ranges and order are the receiver's business. Of several of

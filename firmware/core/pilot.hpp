@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A policy at work: from where the ball is to where the wheels are to go, once a decision.
 //
 // `policy` is a constant with static storage, as an exported header holds (firmware/policy/policy.hpp). The

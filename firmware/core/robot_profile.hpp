@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A robot as data: what the controller has to know of it, and where that comes from.
 //
 // `RobotDescription` holds what can be weighed and read off a motor's data sheet. `profile_of` derives what

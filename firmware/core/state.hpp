@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller's states and faults, as they stand on the bus and in every report.
 //
 //   boot       the first tick after reset; left by itself

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The supervisor: one state machine over five states, as a pure function of what this tick brought.
 //
 //   boot -> self_test -> standby <-> active

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two periods that everything in the controller counts in, and their only source.
 //
 // A tick is the period of the wheel loops; the controller steps once for each. A decision is one forward pass

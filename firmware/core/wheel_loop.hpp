@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The wheel-speed loops: a PI controller for each wheel, once a tick (1 kHz), from rim speed to torque, with a
 // torque limit and anti-windup by conditional integration. Gains and limit are the robot's (RobotProfile).
 #pragma once

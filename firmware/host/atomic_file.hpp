@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A result file that is there whole or not at all: written under a temporary name, renamed at the end.
 #pragma once
 

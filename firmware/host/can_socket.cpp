@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/host/can_socket.hpp"
 
 #include <linux/can/error.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A SocketCAN raw socket on one interface (linux/can/raw.h). Blocking is in `wait` alone; sending and
 // receiving never block. One thread at a time.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole files in and out. Errors are std::runtime_error with a one-line message that names the file.
 #pragma once
 

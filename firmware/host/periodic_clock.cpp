@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/host/periodic_clock.hpp"
 
 #include <cerrno>

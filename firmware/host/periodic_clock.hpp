@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Periodic absolute deadlines on a clock, which a test may replace by a logical one.
 #pragma once
 

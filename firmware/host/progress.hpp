@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The progress of long work on stderr: one line that updates itself on a terminal, a plain line every few
 // seconds elsewhere. Wall-clock time is seen here only, never in a result.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A clean stop on SIGINT or SIGTERM: the signal sets a flag, and ends blocking calls with EINTR.
 #pragma once
 

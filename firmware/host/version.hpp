@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which Striker a program is, for --version and for reports: written anew when the sources' commit has changed.
 #pragma once
 

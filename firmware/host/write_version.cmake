@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Runs in every build: cmake -D SOURCES=... -D VERSION=... -D BUILD_TYPE=... -D OUTPUT=... -P write_version.cmake.
 # Leaves OUTPUT alone if nothing in it would change, so that nothing is compiled again.
 set(GIT_HASH unknown)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/loop/built_in_node.hpp"
 
 namespace striker::loop {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The node that this build's programs and images run: the built-in policy, with Striker's own drives.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bus as the loop sees it: one of the two seams of a port (the other is the clock, clock.hpp).
 //
 // A port implements it as a plain class. Nothing of it blocks, allocates or throws, and one thread calls it:

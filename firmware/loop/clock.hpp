@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clock as the loop sees it: absolute deadlines, one a tick.
 //
 // Time is a signed integer of the port's choice: nanoseconds in 64 bits on Linux, microseconds in 32 bits on

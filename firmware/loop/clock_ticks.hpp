@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ticks by the port's own clock: hard real time.
 //
 // A tick waits for its absolute deadline and receives at most `frames_per_tick` frames; more wait for the

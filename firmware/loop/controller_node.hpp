@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller as a node of the bus: frames in, one step, frames out.
 //
 // It puts the three parts together that know nothing of each other: what was received (firmware/can), what is

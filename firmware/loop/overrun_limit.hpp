@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How many of the last 1,000 ticks were missed, and whether that is too many.
 //
 // The window slides in blocks of 100 ticks: it covers the block of the present tick and the nine before it,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lockstep: ticks that a simulator gives, by Sync frames.
 //
 // Frames are kept until a valid Sync(t) ends the wait; then the controller steps once, at t, and its answer

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One tick of the loop: what a source of ticks hands to the controller's node.
 #pragma once
 

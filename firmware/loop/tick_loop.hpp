@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loop of every port: next tick, one step, its frames out. On Linux and on boards, by the clock and in
 // lockstep, under test and in a simulator it is this text.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The measured fields of the Timing message: maxima since the last one that was sent.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The policy that this build puts into the controller's programs and images.
 //
 // The build chooses it: STRIKER_POLICY_HEADER is the path of an exported header, as a string, and

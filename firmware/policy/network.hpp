@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Q network: int16 or int8 weights, int16 activations, 32-bit sums, ReLU, power-of-two rescaling, argmax.
 //
 //   const auto q = infer<kick>({ball_x_um, ball_y_um, ...});    // q.action, q.sums

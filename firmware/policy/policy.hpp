@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an exported header holds: an integer Q network with everything the controller needs to trust it.
 //
 //   #include "firmware/policy/exported/kick.hpp"      // defines striker::policy::kick

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The proof that a policy carries: computed by the compiler from the header's own numbers. A header that
 // could overflow, or that was altered after the export, does not compile.
 #pragma once

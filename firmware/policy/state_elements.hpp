@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The elements of state that a policy can read, in the robot's frame (RCS, the paper's section III), and the
 // controller's integer unit of each. The only list of them: the controller, the trainer, the exporter and the
 // decision CSV read this table.

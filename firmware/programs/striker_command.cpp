@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-command: the operator's tool. Sends a protected command and waits until the controller's status
 // shows its effect.
 #include <fmt/core.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-dbc: prints the message table as a DBC file on standard output.
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-firmware: the kick controller as a Linux process, on a CAN interface or on a bench in the process.
 #include <fmt/core.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a controller may put on its bus: the messages that the table says it sends, each with its own length.
 //
 // The loop asks for every frame, after everything else and whatever made it. It is other code than what makes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bus budget as text for a terminal and as JSON.
 #pragma once
 

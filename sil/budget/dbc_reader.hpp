@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The messages of a DBC file for a bus budget: those with 11-bit identifiers of up to 8 bytes, and the
 // attributes GenMsgCycleTime (period), GenMsgDelayTime (shortest distance) and Deadline, all in ms, and Burst,
 // as `striker-dbc` writes them. Without a period it is the distance; with a distance but no Burst the period

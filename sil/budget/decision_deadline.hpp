@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a picture to the torque command that answers it, at worst, in five parts that follow each other:
 //
 //   picture   the later frame of pose and ball is received: the greater of their responses

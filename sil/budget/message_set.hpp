@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The messages that a bus budget is made for, from the message table; sil/budget/dbc_reader.hpp reads others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worst-case response times on a classic CAN bus: the corrected analysis of R. I. Davis, A. Burns, R. J.
 // Bril, J. J. Lukkien, "Controller Area Network (CAN) schedulability analysis: Refuted, revisited and
 // revised", Real-Time Systems 35 (2007). The analysis of 1994 looks at a message's first instance alone; a

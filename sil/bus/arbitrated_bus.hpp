@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A CAN bus as a discrete-event simulation at bit-time resolution: frames wait in a queue for each identifier
 // (first in, first out), the wired-AND of the identifiers' bits decides who sends, a frame that has begun
 // runs to its end, and errors destroy the frame that they hit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bit rate whose bit time is a whole number of ns, as all of CiA 102 are: 10, 20, 50, 100, 125, 250, 500,
 // 800, 1000 kbit/s.
 #pragma once

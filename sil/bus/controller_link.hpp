@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the simulator reaches one controller: a tick's frames out, then the controller's answer back.
 //
 // `send` does not wait for the controller, `collect` does: a scenario with ten controllers sends to all, then

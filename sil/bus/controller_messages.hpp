@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which messages the controller sends, from the message table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the controller's answer to a tick ends, in lockstep: with EndOfTick. This is the only place that knows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How many bit times a classic CAN data frame with an 11-bit identifier takes (ISO 11898-1, 10.4 and 10.5):
 //
 //   stuffed    SOF 1, identifier 11, RTR 1, IDE 1, r0 1, DLC 4, data 8 s, CRC 15   = 34 + 8 s

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sil/bus/in_process_link.hpp"
 
 namespace striker::sil {

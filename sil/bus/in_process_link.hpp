@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller in the simulator's own process, stepped by the same Sync frames as over a bus, in the same
 // loop as in the firmware. It steps within `send`; `collect` hands over what it said. A copy of a link is a
 // controller of its own.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller behind SocketCAN, in lockstep or on its own clock.
 //
 // Lockstep: SYNC(0) is repeated until it is answered. A tick without an answer within the answer timeout is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame with the logical time at which every node on the bus had it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sil/bus/timed_link.hpp"
 
 #include <algorithm>

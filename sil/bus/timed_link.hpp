@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bus that takes time, between the simulator and any controller in lockstep: frames arbitrate, and the
 // controller has in a tick only what was received when that tick's SYNC was.
 //

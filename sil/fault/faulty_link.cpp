@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sil/fault/faulty_link.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A link on which frames get lost, and behind which the controller may die and come back: a decorator of any
 // other link.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-bus-budget: does every message meet its deadline, and how long is it from picture to torque?
 #include <fmt/core.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-sil: the world around the controller, in lockstep or at wall-clock speed.
 #include <fmt/core.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bus as a candump log (the format of candump -L and of canplayer, python-can and SavvyCAN):
 //   (0000000012.345000) vcan0 050#1122334455667788
 // The stamp is logical time in seconds, the interface column vcan and the robot's number: same seed, same

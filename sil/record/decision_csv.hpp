@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller's own integer state at every decision, as CSV: what `striker-evaluate --decisions` compares
 // with the float network. Columns: episode, decision, before_contact (0 or 1), action, then the network's
 // inputs in the controller's raw units (um, mm/s, binary angle); "@1" is the value one decision ago.

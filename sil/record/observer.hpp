@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who watches a run: logs, records, progress, pacing. A scenario calls every observer at the same three
 // points, whatever it is; nothing an observer does changes a result.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sil/record/pacer.hpp"
 
 #include <fmt/core.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lets a run go no faster than the wall clock: every tick waits for its absolute deadline.
 #pragma once
 

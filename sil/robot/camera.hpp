@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a camera sees: poses and positions as values, before they become frames. A sensor's fault is a Camera
 // that changes the Picture of another; it forges no frame.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two plants behind one interface: what turns the drives' orders into motion, and what it measures. SI
 // units; nothing here knows a frame.
 //

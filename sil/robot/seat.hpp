@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One robot's place in a scenario: its motors, drives, camera and the link to its controller, all on one bus
 // of its own, and what they do in a tick:
 //

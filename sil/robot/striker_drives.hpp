@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The drives of Striker's own message table: WheelCommand in, WheelState out, both wheels in one frame.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A robot's virtual motor controllers as nodes on its bus: they check every command frame, hold the last valid
 // command, report what they measure, and cut the torque by themselves when commands stop. What the motors make
 // of a command is the plant's (sil/robot/plant.hpp).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sil/scenario/kick_scenario.hpp"
 
 #include "firmware/core/tick.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plays kick episodes with one seat, one tick of 1 ms at a time: the operator's orders, when a picture is
 // taken, and when the world moves.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The operator of one controller: gives mode commands and hears what the controller says of itself.
 #pragma once
 

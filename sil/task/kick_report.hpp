@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a run over many kick episodes says: the same figures and the same JSON from every program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The official kick task: one definition for training, evaluation and SIL.
 //
 // An open floor, one forward robot, 40 decisions of 50 ms. The ball starts on the circle of 2 m around the

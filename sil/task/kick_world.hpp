@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the kick task asks of a world, so that one definition of the task serves every world there is.
 // sil::World and sil::PlanarWorld fulfil it; kick_task.cpp is where each is named once.
 #pragma once

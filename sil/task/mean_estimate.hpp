@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mean over episodes with its standard error, as every report of this project gives it.
 #pragma once
 

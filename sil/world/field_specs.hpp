@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Size of the AI Soccer field and ball.
 #pragma once
 

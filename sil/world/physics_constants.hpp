@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The constants of physics that more than one model of the world computes with.
 #pragma once
 

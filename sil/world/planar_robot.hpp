@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A forward on the plane: one body on two driven wheels, in closed form. Nothing is in its way.
 //
 // Each wheel is a velocity servo with a torque ceiling, at the rim a force: it does what reaches the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fast world of the kick task: one forward on the plane (planar_robot.hpp), the ball, an open floor. It
 // has the interface of sil::World as far as the task needs it, and takes its place in training.
 //

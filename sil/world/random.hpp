@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A random stream that is a pure function of (seed, index, tag): SplitMix64 (Steele, Lea, Flood: "Fast
 // splittable pseudorandom number generators", OOPSLA 2014), which walks a 64-bit counter by a fixed odd step
 // and mixes it. Streams of different indices or tags are independent for every practical purpose, so that

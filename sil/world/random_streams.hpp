@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which number each use of randomness has as the tag of its sil::Random: a stream of its own, so that a new
 // kind of draw disturbs no other. This is the only list of them. Below 100 the task draws an episode, from
 // 100 on a trainer learns from it; a test that draws for itself takes any number, as it shares its seed with

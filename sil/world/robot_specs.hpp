@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Size, mass and drive limits of the AI Soccer robots (a box on two driven wheels and two skids).
 #pragma once
 

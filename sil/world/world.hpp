@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The AI Soccer world in ODE: field, ball, and one to ten two-wheel robots, with full wheel bodies.
 //
 // Coordinates: x along the field towards the opponent's goal, y to the left, origin in the centre; headings

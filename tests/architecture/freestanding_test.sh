@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # Compiles the firmware's parts (policy, core, can, safety, loop) freestanding, for x86-64 and Cortex-M0+, and reads the objects' undefined
 # symbols: none of an allocator, of floating point, of libm or of exceptions.
 # Usage: freestanding_test.sh SOURCE_DIRECTORY POLICY_HEADER

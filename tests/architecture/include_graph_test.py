@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The rooms and their arrows: reads every #include of the sources and holds who may include whom, that no circle is
-among rooms or files, that includes name the owner, and that no room is crowded. Then it adds each kind of violation to
+among rooms or files, that includes name the owner, that no room is crowded, and that each file names its
+licence. Then it adds each kind of violation to
 a copy and requires that it is noticed."""
 
 import argparse
@@ -15,6 +16,7 @@ SOURCES = (".cpp", ".hpp", ".h", ".c")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 MOST_LINES = 330
 MOST_SOURCES = 16
+LICENCE = "SPDX-License-Identifier: Apache-2.0"
 
 # A room and what it may include besides itself. A room is the longest of these names that a path begins with.
 ARROWS = {
@@ -115,7 +117,10 @@ def crowds(root, paths):
         if path.startswith("firmware/policy/exported/"):
             continue
         with open(os.path.join(root, path), encoding="utf-8") as text:
-            lines = text.read().count("\n")
+            content = text.read()
+        lines = content.count("\n")
+        if LICENCE not in content.split("\n", 1)[0]:
+            yield f"{path}: its first line is not {LICENCE}"
         if lines > MOST_LINES:
             yield f"{path}: {lines} lines, more than {MOST_LINES}"
 
@@ -161,6 +166,7 @@ VIOLATIONS = (
     ("firmware/core/state.hpp", '#include "firmware/core/supervisor.hpp"', "a circle of files"),
     ("firmware/core/supervisor.cpp", '#include "supervisor.hpp"', "does not name a file"),
     ("firmware/core/supervisor.cpp", "\n" * MOST_LINES, "lines, more than"),
+    ("firmware/core/supervisor.cpp", "", "its first line is not"),
 )
 
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The message table and its DBC are one message set; other DBC files say what is wrong with them.
 #include "sil/budget/message_set.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The analysis against the paper's example, and against simulated buses that try to break it.
 #include "sil/budget/response_time.hpp"
 

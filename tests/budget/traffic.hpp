@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traffic for the bus simulation that keeps exactly what a message set promises, and what became of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where an answer ends, on what a controller really says.
 #include "sil/bus/end_of_tick.hpp"
 

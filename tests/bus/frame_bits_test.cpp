@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame's bits, against a second implementation by text: CRC by polynomial division, stuffing by search.
 #include "sil/bus/frame_bits.hpp"
 

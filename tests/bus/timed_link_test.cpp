@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bit-timed bus in the loop: deterministic, one frame at a time, and no decision later than its bound.
 #include "sil/bus/timed_link.hpp"
 

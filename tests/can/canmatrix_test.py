@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """canmatrix, with the committed DBC, decodes what the C++ table packed. Usage: canmatrix_test.py SAMPLES DBC"""
 
 import subprocess

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The message table's packing and receive checks, for every message, by property.
 #include "firmware/can/codec.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The committed DBC is what the message table prints.
 #include "firmware/can/dbc.hpp"
 

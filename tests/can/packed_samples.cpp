@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints frames that the message table packed, with the values that went in, for a foreign decoder to check:
 //   MESSAGE IDENTIFIER PAYLOAD signal=raw ...
 // Every signal's minimum, maximum and zero with the others at zero, then random values for all.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The message table as firmware/can/striker.dbc tells it, so that no test types an identifier or a state by hand."""
 
 import os

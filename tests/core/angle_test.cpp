@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The CORDIC against double-precision trigonometry: the errors that angle.hpp states.
 #include "firmware/core/estimation/angle.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The estimator on ideal pictures: exact velocities, lead between pictures, and nothing kept after a reset.
 #include "firmware/core/estimation/estimator.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The RCS state against the paper's equations in double precision (corrected form), and its invariance: the
 // same situation at another place on the field is the same state.
 #include "firmware/core/estimation/relative_state.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The supervisor over every state, fault and combination of conditions: what must never happen does not.
 #include "firmware/core/supervisor.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The wheel loop on the plant it was tuned for: limits, no wind-up, no steady error.
 #include "firmware/core/wheel_loop.hpp"
 

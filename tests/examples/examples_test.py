@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Configures, builds and, on the host, runs firmware/examples as a project of its own, with Striker as a subproject or as
 an installed package. It must link neither heap nor exceptions nor the C++ standard library, and Striker must leave the
 other project's settings alone."""

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # The source that tells a program's version: written when the commit changes, left alone when nothing does, and without
 # a hash where the repository is somebody else's.
 # Usage: version_test.sh WRITE_VERSION_CMAKE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The measuring image, for QEMU with semihosting and `-icount shift=0`: instructions of the network and of
 // `step`.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The test image: the same checks, with the same output to the letter, on every target and on the host.
 //
 //   striker-check [recording FILE]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a test image needs of the world outside: a text output, its command line, a file to read, an end.
 //
 // On targets this is Arm semihosting ("Semihosting for AArch32 and AArch64"): a debugger or QEMU does it, and

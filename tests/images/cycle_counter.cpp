@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The performance monitors' cycle counter (Armv7-R Architecture Reference Manual, chapter C12). QEMU runs it
 // at 1 GHz of virtual time: an instruction a count.
 #include "tests/images/instruction_counter.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bus in memory: one frame in at a time, and what the last step sent.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts instructions under QEMU's `-icount shift=0`, where an instruction takes one nanosecond of virtual
 // time. On hardware the same timers count time.
 #pragma once

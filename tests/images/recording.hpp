@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recorded run of the simulator, frame by frame: what went to the controller, and what it answered.
 //
 // The file (tests/ports/record_run.py makes it of a candump log): for each frame 11 bytes, identifier (16 bits,

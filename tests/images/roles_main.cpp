@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three roles and two policies in one program: each controller's run of its own, as a hash of every frame that
 // it sent, on every target as on the host.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A search for the longest `step`: a bus that behaves, mostly, and misbehaves in every way that the
 // controller's code has a branch for; steps that took long are where it goes on from.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SysTick (Armv6-M and later Architecture Reference Manuals, "System timer"): 24 bits, counting down with the
 // processor's clock, which STRIKER_CLOCK_HZ says for the board.
 #include "firmware/ports/bare_metal/cortex_m/systick.hpp"

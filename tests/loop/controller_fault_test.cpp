@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the controller does when its inputs stop, or an operator stops it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every protected frame that reaches the controller, broken in every way: ignored whole, and counted.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A controller's node on a test bench: pictures every 50 ticks, wheel states every tick, each of which a test
 // may withhold, and what it last answered.
 #pragma once

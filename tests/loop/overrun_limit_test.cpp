@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The overrun rule against a plain count over the ticks themselves.
 #include "firmware/loop/overrun_limit.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A hostile bus: frames lost, repeated, corrupted, late, with random commands between. On every tick: no
 // torque without a valid, fresh, armed cause, by the test's own account of what was delivered whole.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The real-time loop on a logical clock: stalls of k periods are skipped, counted, never run in a burst, and
 // a fault at the limit; a flooded bus does not stretch a tick. No wall clock decides anything here.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one loop, as a board runs it: on a logical clock of microseconds and a bus in memory that goes off, takes
 // no frame, or is flooded; and in lockstep.
 #include "firmware/loop/tick_loop.hpp"
@@ -11,6 +12,7 @@
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/clock_ticks.hpp"
 #include "firmware/loop/sync_ticks.hpp"
+#include "tests/loop/memory_bus.hpp"
 
 namespace striker::loop {
 namespace {
@@ -35,70 +37,6 @@ class LogicalClock {
  private:
   std::uint32_t tick_ = 0;
 };
-
-template <class Time>
-class MemoryBus {
- public:
-  std::vector<can::Frame> waiting;
-  std::vector<can::Frame> sent;  // since it was last cleared
-  can::BusHealth now = can::BusHealth::active;
-  std::size_t room = 100;  // frames that it takes in a tick
-
-  void poll() {}
-  Received<Time> receive(std::size_t most) {
-    const std::size_t count = std::min(most, waiting.size());
-    batch_.assign(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
-    waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
-    return {.frames = batch_, .oldest = 0};
-  }
-  std::size_t try_send(std::span<const can::Frame> frames) {
-    const std::size_t taken = std::min(room, frames.size());
-    sent.insert(sent.end(), frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(taken));
-    return taken;
-  }
-  [[nodiscard]] can::BusHealth health() const { return now; }
-
- private:
-  std::vector<can::Frame> batch_;
-};
-
-// Everything that sends to a controller.
-class World {
- public:
-  std::vector<can::Frame> frames_of(std::uint32_t tick) {
-    std::vector<can::Frame> frames;
-    if (tick % 50 == 0) {
-      const auto number = static_cast<std::int32_t>(tick / 50 % 16);
-      frames.push_back(can::send(can::VisionPose{.frame = number}, pose_));
-      frames.push_back(can::send(can::VisionBall{.frame = number, .x_quarter_mm = 6000}, ball_));
-    }
-    frames.push_back(can::send(can::WheelState{}, wheels_));
-    if (tick == 160) {
-      frames.push_back(mode(can::Mode::arm));
-    }
-    return frames;
-  }
-  can::Frame mode(can::Mode mode) {
-    return can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, mode_);
-  }
-  can::Frame sync(std::uint32_t tick) {
-    return can::send(can::Sync{.tick = static_cast<std::int32_t>(tick)}, sync_);
-  }
-
- private:
-  can::SendCounter pose_, ball_, wheels_, mode_, sync_;
-};
-
-bool has_torque(const std::vector<can::Frame>& frames) {
-  for (const can::Frame& frame : frames) {
-    can::WheelCommand command;
-    if (can::is<can::WheelCommand>(frame) && can::unpack(frame, command) == can::Verdict::accepted &&
-        (command.left_torque_mNm != 0 || command.right_torque_mNm != 0)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 class BoardLoop : public testing::Test {
  protected:
@@ -226,73 +164,6 @@ TEST_F(BoardLoop, TheEndTakesTheTorque) {
   EXPECT_FALSE(bus_.sent.empty());
   EXPECT_FALSE(has_torque(bus_.sent));
   EXPECT_EQ(state(), core::State::standby);
-}
-
-class Lockstep : public testing::Test {
- protected:
-  using Bus = MemoryBus<std::int64_t>;
-
-  bool turn(std::uint32_t tick) {
-    bus_.waiting = world_.frames_of(tick);
-    bus_.waiting.push_back(world_.sync(tick));
-    bus_.sent.clear();
-    return loop_.turn();
-  }
-  [[nodiscard]] std::int32_t ended_tick() const {
-    can::EndOfTick end;
-    const bool ended = !bus_.sent.empty() && can::is<can::EndOfTick>(bus_.sent.back()) &&
-                       can::unpack(bus_.sent.back(), end) == can::Verdict::accepted;
-    return ended ? end.tick : -1;
-  }
-
-  World world_;
-  Bus bus_;
-  SyncTicks ticks_;
-  TickLoop<BuiltInNode, Bus&, SyncTicks&> loop_{built_in_robot, bus_, ticks_};
-};
-
-TEST_F(Lockstep, EverySyncIsAnsweredAndTheAnswerEndsWithItsTick) {
-  for (std::uint32_t tick = 0; tick < 300; ++tick) {
-    ASSERT_TRUE(turn(tick));
-    ASSERT_EQ(ended_tick(), static_cast<std::int32_t>(tick));
-  }
-  EXPECT_EQ(loop_.node().controller().state(), core::State::active);
-}
-
-TEST_F(Lockstep, WithoutASyncThereIsNoTick) {
-  EXPECT_FALSE(loop_.turn());
-  turn(0);
-  bus_.waiting = world_.frames_of(1);
-  EXPECT_FALSE(loop_.turn());
-}
-
-TEST_F(Lockstep, AnOverdueSyncIsOneFaultWithoutAnEndOfTick) {
-  ticks_.overdue();
-  EXPECT_FALSE(loop_.turn()) << "before the first Sync nothing is overdue";
-  for (std::uint32_t tick = 0; tick < 260; ++tick) {
-    turn(tick);
-  }
-  bus_.sent.clear();
-  ticks_.overdue();
-  EXPECT_TRUE(loop_.turn());
-  EXPECT_EQ(loop_.node().controller().fault(), core::Fault::sync_lost);
-  EXPECT_FALSE(has_torque(bus_.sent));
-  EXPECT_EQ(ended_tick(), -1);
-  ticks_.overdue();
-  EXPECT_FALSE(loop_.turn());
-}
-
-TEST_F(Lockstep, SyncZeroBeginsAnewWithTheSameAnswers) {
-  std::vector<std::vector<can::Frame>> first;
-  for (std::uint32_t tick = 0; tick < 260; ++tick) {
-    turn(tick);
-    first.push_back(bus_.sent);
-  }
-  world_ = {};
-  for (std::uint32_t tick = 0; tick < 260; ++tick) {
-    turn(tick);
-    ASSERT_EQ(bus_.sent, first[tick]) << tick;
-  }
 }
 
 // The two sources of ticks differ in when, not in what: the same frames at the same ticks, the same answers.

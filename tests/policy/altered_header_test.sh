@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # A policy header that was altered, or that could overflow, does not compile, and the compiler says why.
 # Usage: altered_header_test.sh SOURCE_DIRECTORY POLICY_HEADER
 set -euo pipefail

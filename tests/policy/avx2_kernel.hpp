@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The int16 kernel with AVX2's vectors of 256 bits, for the tests and benchmarks that show what the processor
 // can do. The firmware's Linux build takes SSE2: it has to run on any x86-64, and decides every 50 ms.
 //

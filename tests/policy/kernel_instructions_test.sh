@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # The kernel's instruction count on the host, by callgrind, over five sets of inputs: all the same.
 # With a limit, not more than that for 6-64-64-3; for other networks in proportion, and a quarter more.
 # Usage: kernel_instructions_test.sh KERNEL_PROBE [LIMIT]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the kernel on one set of 200 inputs, for a tool that counts its instructions:
 //   kernel_probe random|zero|high|low|mixed
 //   kernel_probe macs       prints the network's multiply-accumulates

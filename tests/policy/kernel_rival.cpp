@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The network's kernel beside Eigen's fixed-size float, same shape and weights, on this processor with AVX2:
 //
 //   kernel_rival time          both in turns; the medians of 401 rounds in ns, and of the rounds' ratios

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel of this build against the portable one, on networks of many shapes: the same bits.
 #include <gtest/gtest.h>
 

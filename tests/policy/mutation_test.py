@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Breaks the kernel's promises one by one, in a copy of the sources, and requires that a test notices each time."""
 
 import argparse

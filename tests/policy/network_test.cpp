@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel against a plain 64-bit reference written from the specification in policy.hpp, on the built-in
 // policy: random, saturating and adversarial inputs, and the header's golden vectors.
 #include "firmware/policy/network.hpp"

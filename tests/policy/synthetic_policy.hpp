@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Networks that no training made, for kernels: of any shape, drawn by the compiler from a seed, with weights
 // as great as the proof lets them be and scales from one end of their ranges to the other.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The network with the kernel that a test or benchmark is about: AVX2's where it is compiled for AVX2 and the
 // weights are int16, else the one that the firmware takes.
 #pragma once

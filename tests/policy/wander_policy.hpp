@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A second policy that the controller accepts, beside the built-in one: weights that no training made, three
 // actions that every role can drive, and a proof of its own, all by the compiler.
 #pragma once

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What a board.cmake can say, and what cmake answers to one that is wrong. Usage: board_test.py BOARDS_JSON"""
 
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs a board's controller image, as it would be flashed, on QEMU: slcan over the board's serial port, the
 recorded run's frames as its bus, tick by tick. It has to arm and decide, and its stack, painted at reset, must not
 have been deeper than the computed bound."""

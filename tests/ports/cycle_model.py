@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A cycle estimate from Arm's published instruction timings and an executed trace: zero wait states, no contention.
 
 Tables: Cortex-M0+ Technical Reference Manual (DDI 0484C, table 3-1, fast multiplier), Cortex-M3 (DDI 0337I, table

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The real firmware process in its real-time loop: what it may not do after initialisation.
 Usage: hard_real_time_test.py BIN_DIRECTORY NO_ALLOCATION_LIBRARY
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Builds the images for one board and holds them, on its emulation, to the host's answers and to limits.json."""
 
 import argparse

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Preloaded into striker-firmware: from the first deadline of its main thread to the one that STRIKER_TICKS
 // names, any thread that allocates or frees ends the process, with the name of what it called on stderr.
 // operator new and delete come here by way of malloc and free.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs a bare-metal image on the board that QEMU emulates for it, with one nanosecond an instruction."""
 
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes the recording that the images replay (tests/images/recording.hpp) of a simulator's candump log."""
 
 import argparse

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CAN over a serial port that is a test's: what was put comes out as frames, and a transmitter that stops stops
 // nobody else.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames as lines of a serial CAN adapter, and back; what is no frame is ignored.
 #include "firmware/ports/bare_metal/slcan.hpp"
 

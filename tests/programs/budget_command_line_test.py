@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """striker-bus-budget, and striker-sil's bus in time. Usage: budget_command_line_test.py BIN_DIRECTORY"""
 
 import json

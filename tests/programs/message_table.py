@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Identifiers and named values from the committed DBC, which a test holds to the message table."""
 
 import os

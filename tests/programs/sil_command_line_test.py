@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """striker-sil's files and errors, without a bus. Usage: sil_command_line_test.py BIN_DIRECTORY"""
 
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The programs on a real vcan0: run it where one exists (tools/with-vcan).
 Usage: vcan_test.py BIN_DIRECTORY [Vcan.test_NAME...]"""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What observers see of a run: every tick, in order, and the true world.
 #include "sil/record/observer.hpp"
 

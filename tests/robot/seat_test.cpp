@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A robot's place: what it sends in which order, parts that a test replaces, and ten of them side by side.
 #include "sil/robot/seat.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The drives' own watchdog and receive checks.
 #include "sil/robot/striker_drives.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Over every identifier and length: what may be sent is what the message table says the controller sends.
 #include "firmware/safety/whitelist.hpp"
 

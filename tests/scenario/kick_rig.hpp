@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A kick scenario in one call: robot 0 with its own drives and camera, behind any link.
 #pragma once
 

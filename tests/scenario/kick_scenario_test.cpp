@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kick scenario with the controller in process: same bytes for the same seed, episodes that stand alone.
 #include "sil/scenario/kick_scenario.hpp"
 

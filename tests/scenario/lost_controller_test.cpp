@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller dies in mid-run, and comes back: the drives act by themselves, and nobody arms it unasked.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The built-in policy on 2,000 held-out episodes over the in-process bus: the figures that a release must keep.
 Usage: policy_figures_test.py BIN_DIRECTORY"""
 

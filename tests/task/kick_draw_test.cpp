@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an episode starts with.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an episode is worth, on hand-made situations.
 #include <gtest/gtest.h>
 

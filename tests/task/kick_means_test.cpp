@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What play without skill is worth over 2,000 episodes. About -3.4 is also what a planar model without ODE
 // gives for all three.
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """tools/timing-test measures, prints and writes; what it measures does not matter here.
 Usage: timing_test.py TIMING_TEST BUILD_DIRECTORY"""
 

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # tools/with-vcan: whatever the kernel has, a command runs as if called directly, with a vcan0, and nothing is left.
 # Exits with 0 if all holds, else names what does not.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A step allocates nothing once the world is warm: neither through operator new nor through ODE.
 #include <gtest/gtest.h>
 #include <ode/ode.h>

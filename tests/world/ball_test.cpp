@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ball on the floor, at the walls, in the goals and at the robots.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same calls give the same bits, whatever a world has been through and whatever other worlds do.
 #include <gtest/gtest.h>
 #include <ode/ode.h>

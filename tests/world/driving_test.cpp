@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A robot on its wheels: what the motors ask for is what the body does.
 #include <gtest/gtest.h>
 

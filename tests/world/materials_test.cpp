@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sil/world/ode/materials.hpp"
 
 #include <gtest/gtest.h>

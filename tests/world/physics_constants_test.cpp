@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The constants that C++ cannot compute are those that they are said to be.
 #include "sil/world/physics_constants.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fast world beside the full wheel bodies: on 1,000 random action sequences, in turns, at other steps.
 #include "sil/world/planar_world.hpp"
 

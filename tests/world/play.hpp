@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small helpers: drive a robot, run a world, play a kick episode with given actions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // 10 ms and 1 ms steps simulate the same world.
 #include <gtest/gtest.h>
 

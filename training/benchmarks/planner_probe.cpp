@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a decision of the planner costs: plays episodes with it, and prints how many decisions it took. A tool
 // that counts instructions finds them under the name `counted_plan` (tools/bench-training).
 #include <fmt/format.h>

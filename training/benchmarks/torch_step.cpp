@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rival: the same gradient step as users of libtorch write it. One thread, as this trainer.
 #include <benchmark/benchmark.h>
 #include <torch/torch.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What training costs: decisions of both worlds, and a gradient step of this trainer; beside it libtorch's,
 // if it is there (torch_step.cpp). tools/bench-training runs it with the repetitions interleaved and prints
 // the ratios.

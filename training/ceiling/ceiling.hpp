@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The best reward that any action sequence gets in an episode: 3 actions in 40 decisions.
 //
 // Until the ball is near enough to the robot's line to be touched, the reachable states are the same in every

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The figures of a run of the ceiling: what its table and its JSON say.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What striker-ceiling prints and writes: a table for people, JSON, and a row an episode.
 #pragma once
 

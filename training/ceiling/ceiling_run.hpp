@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ceiling and its rivals over the episodes of a seed. Results depend on the options alone, never on the
 // number of jobs.
 #pragma once

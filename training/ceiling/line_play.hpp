@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kick task on one line. The three actions drive straight, so the robot's centre stays on the line of its
 // initial heading, and until the contact nothing moves it but its wheels: two numbers are its whole state.
 // The ball rolls on freely meanwhile. The arithmetic is that of the fast world (sil/world/planar_robot.hpp).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the robot can be: all states on its line (line_play.hpp) that 3 actions in 40 decisions reach from
 // rest, merged on a grid of position and speed. Each cell keeps the first real state that fell into it, and
 // how that came about, so that every node is a state of an action sequence that exists. The ball plays no

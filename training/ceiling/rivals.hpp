@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scripted rivals of the network in the official kick task: what a simple rule gets, what a good engineer's
 // rule gets, and what a planner gets that knows the simulation. They see what the network sees (the paper's
 // RCS state with true velocities), and how many decisions are left.

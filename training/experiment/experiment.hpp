@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's experiment: variants of one training, each over several seeds.
 //
 // A run is one variant with one seed. Its three files are written when it is complete, its figures last, so

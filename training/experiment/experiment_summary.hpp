@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an experiment's runs say together. All runs must be complete; the same runs give the same bytes.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws an experiment's figures, as SVG and PNG, from the tables that striker-experiment wrote.
 
 Usage: striker-plot-experiment DIR

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "training/experiment/ranks.hpp"
 
 #ifdef STRIKER_HAS_MPI

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The processes of one `mpirun`, on one machine or several: who does what, and files brought to the first.
 #pragma once
 

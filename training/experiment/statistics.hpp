@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics over a few independent runs, as Agarwal et al. 2021 ("Deep Reinforcement Learning at the Edge of
 // the Statistical Precipice") recommend: interquartile means, bootstrap intervals over runs, and the
 // probability of improvement. Everything is a pure function of its arguments, the seed of the draws included.

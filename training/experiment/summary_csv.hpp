@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An experiment's summary as tables for programs. training/README.md explains every column.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An experiment's summary as a table for people, and how its figures are written.
 #pragma once
 

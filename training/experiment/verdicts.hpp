@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an experiment says about the paper, as tables in Markdown.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Independent pieces of work, each in a process of its own: one that dies takes nothing else with it.
 #pragma once
 

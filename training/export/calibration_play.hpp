@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // States that a policy meets in play: what the quantiser's scales are made for, and what it is judged on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a trained model to the policy that the firmware takes, and how far it is from the model.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the weight header that firmware/policy/policy.hpp describes: the only thing that training hands to
 // the firmware.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an export writes: the header, with a comment that says where it comes from, and its figures as JSON.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the firmware can serve. It checks all of it again: this says so before the header is written, in
 // words.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The golden vectors of an exported policy: raw states, and what the exporter's own integer network answers
 // to them. The controller must give the same numbers, at boot and on every target.
 #pragma once

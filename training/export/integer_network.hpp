@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exporter's own reference of the integer Q network that firmware/policy/policy.hpp specifies, with sizes
 // known only at run time. It shares no code with the firmware, so that the golden vectors it computes check
 // one implementation against another.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the float network to the integer network of firmware/policy/policy.hpp.
 //
 // Scales are powers of two, one a layer. Activations: the greatest scale at which everything that was met in

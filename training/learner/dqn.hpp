@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The learner: a deep Q network (Mnih et al. 2015) as in the paper, with the options of the configuration. An
 // episode's decisions are below the class, the gradient step is dqn.cpp from top to bottom. It learns in any
 // Environment.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Everything that a learner is made from. training/configs/paper.toml says what each number means to a user,
 // and holds the defaults: a configuration sets all of them, these are only zeros.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a learner has learnt and where it stands, between two episodes: a value that can be copied and kept. A
 // learner of the same setup that is given it goes on to the same bits.
 #pragma once

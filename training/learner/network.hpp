@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Q network: inputs -> hidden -> hidden -> actions, fully connected, ReLU between, float32.
 //
 // All parameters of a network lie in one vector, so that copying, Adam and hashing are one line each;

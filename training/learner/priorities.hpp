@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prioritised replay (Schaul et al. 2016, proportional variant): a transition is drawn with a probability
 // proportional to (|TD error| + epsilon)^alpha, in O(log n) from a tree of sums.
 #pragma once

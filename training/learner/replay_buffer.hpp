@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The replay buffer: a ring of transitions that forgets the oldest, and what folds n steps into one
 // transition for it.
 #pragma once

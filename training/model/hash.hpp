@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FNV-1a, 32 bits (Fowler, Noll, Vo; offset basis 2166136261, prime 16777619): the identity of models,
 // configurations and exported policies. Numbers are hashed as the little-endian bytes of their type.
 #pragma once

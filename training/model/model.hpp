@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A trained Q network as a file: safetensors, float32, the layers named as PyTorch names those of
 // Sequential(Linear, ReLU, Linear, ReLU, Linear): "0.weight" [64, 6], "0.bias" [64], "2.weight", ...
 //

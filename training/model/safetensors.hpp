@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The safetensors format (Hugging Face): 8 bytes of little-endian header length, a JSON header that gives
 // each tensor's type, shape and place, then the data. float32 (F32) only: what this project reads and writes.
 #pragma once

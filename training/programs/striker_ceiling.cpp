@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-ceiling: the best that any action sequence gets in each episode, and what scripted rivals get.
 #include <fmt/format.h>
 

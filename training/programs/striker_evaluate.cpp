@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-evaluate: what a float network is worth, on held-out episodes or beside a controller's decisions.
 #include <fmt/format.h>
 

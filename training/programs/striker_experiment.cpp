@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-experiment: the paper's experiment over many seeds, and the readings of what the paper leaves open.
 #include <fmt/format.h>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-export: quantises a model, proves that it cannot overflow, and writes the firmware's header.
 #include <fmt/format.h>
 

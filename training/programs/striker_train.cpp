@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // striker-train: learns the kick from a configuration and a seed, and writes a model and its learning curve.
 #include <fmt/format.h>
 

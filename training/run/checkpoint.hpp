@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A training run at the end of an episode, as a file: to resume from, to the same bits.
 //
 // It is safetensors like a model: the networks, Adam's moments and the replay buffer as tensors; counters,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A training run's configuration, from a TOML file. What each key means is said in
 // training/configs/paper.toml, which also holds every default.
 #pragma once

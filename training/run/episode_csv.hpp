@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table whose first column counts episodes: kept in memory, written whole, and read back when a run is
 // resumed. Errors are std::runtime_error with one line that names the file.
 #pragma once

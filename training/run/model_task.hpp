@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The task that a model was trained for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables of a configuration that describe the task: [task], and those of its kind ([ball] and [reward]
 // for the kick).
 #pragma once

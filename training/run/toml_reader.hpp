@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the values of a TOML table, and says what is wrong with one: file, key, value, and what it may be.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A training from its first episode to its last: in memory, and as a directory that it can be resumed from.
 #pragma once
 

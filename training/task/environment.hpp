@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A task as a learner sees it: episodes that can be drawn again, a situation as numbers, actions, rewards, an
 // end.
 //

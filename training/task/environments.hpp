@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every kind of environment: what `task.kind` chooses from. A new task adds its class here, its name in
 // TaskKind (task_config.hpp) and in task_reader.cpp.
 #pragma once

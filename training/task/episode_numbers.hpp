@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who plays which episodes of a seed. Evaluations number theirs from 0, as striker-sil does; every other use
 // begins so far away that no evaluation meets it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One kick episode after another, as a learner meets them (environment.hpp). The servo plant of the paper:
 // wheels that hold a set-point within a torque ceiling, physics steps of 10 ms, five a decision.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a network sees: a list of elements chosen in the configuration, each from the present decision or from
 // one of those before it.
 //

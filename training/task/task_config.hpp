@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a configuration says about the task: which environment plays it, where, with which inputs and actions.
 #pragma once
 

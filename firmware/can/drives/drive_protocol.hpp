@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a wheel drive is spoken to with: from a drive command to frames, and from frames to wheel speeds.
 //
 // A protocol is an object, as its counters and node identifiers are state. It knows no controller. A drive of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Striker's own wheel drives: one protected torque command a tick, one protected wheel state back
 // (messages/drives.hpp).
 #pragma once

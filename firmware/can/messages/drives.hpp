@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Striker's own wheel drives: a torque command every tick, and the measured rim speeds back.
 #pragma once
 

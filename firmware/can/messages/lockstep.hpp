@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lockstep: a simulator's tick begins with Sync and ends with the controller's EndOfTick. Neither is on a bus
 // that runs by the clock.
 #pragma once
@@ -39,7 +40,7 @@ inline constexpr auto layout<EndOfTick> =
                                   .period_ms = 1,
                                   .data_id = 0x5B10,
                                   .comment = "Lockstep: the answer to a Sync is complete.",
- .traffic = awaited_by_its_receiver()},
+                                  .traffic = awaited_by_its_receiver()},
                          .signals = {{{.name = "tick",
                                        .field = &EndOfTick::tick,
                                        .first_bit = 16,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an operator sends: arm, disarm, clear, and the emergency stop.
 #pragma once
 

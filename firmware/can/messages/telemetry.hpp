@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the controller tells of itself: state and fault, decisions, timing, sign of life, version.
 #pragma once
 

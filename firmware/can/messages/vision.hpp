@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the camera sees, in two frames a picture that share a 4-bit number. Positions from the field's centre, x
 // towards the opponent's goal, y to the left.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Angles and rotations in integers: binary angles, and CORDIC (Volder 1959) for rotation and direction.
 //
 // A binary angle counts 2^16 to the full circle, so that adding and subtracting wrap by themselves. CORDIC

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where robot and ball are, and how they move, from what is perceived: positions from the camera, 50 ms apart
 // and without velocities, and wheel speeds every tick.
 //

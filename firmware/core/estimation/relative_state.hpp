@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's RCS state (section III): the ball in the robot's frame, in the corrected form.
 //
 // The inverse of the coordinate transformation matrix takes a point by rotation and translation, but a

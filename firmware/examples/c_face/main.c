@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The controller in a main loop in C: 1,000 ticks on a bus where nobody else is, and no waiting. */
 #include "striker.h"
 

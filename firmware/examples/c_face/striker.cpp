@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "striker.h"
 
 #include <algorithm>
@@ -21,8 +22,7 @@ constexpr core::RobotProfile robot = core::profile_of(core::forward);
 static_assert(Pilot::suits(robot));
 static_assert(can::FrameList::capacity <= STRIKER_MOST_ANSWERS);
 
-static_assert(sizeof(Node) <= sizeof(striker_controller),
-              "striker.h: enlarge striker_controller");
+static_assert(sizeof(Node) <= sizeof(striker_controller), "striker.h: enlarge striker_controller");
 static_assert(alignof(Node) <= alignof(striker_controller));
 static_assert(std::is_trivially_copyable_v<Node>);
 static_assert(std::is_trivially_destructible_v<Node>);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The controller for firmware in C: one call a tick of 1 ms, from CAN frames in to CAN frames out.
  *
  *   static striker_controller controller;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller in a main loop of your own: this file, a timer, and a CAN controller.
 #include <array>
 #include <cstddef>

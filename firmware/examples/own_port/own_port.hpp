@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the main loop needs of a board: a timer and a CAN controller of your own. stand_in.cpp is none.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // No board: 1,000 ticks without waiting, on a bus where nobody else is.
 #include "own_port.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Activations in memory, for kernels that read them in words or vectors, or by assembly.
 #pragma once
 

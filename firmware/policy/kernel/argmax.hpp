@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The network's choice: the action whose sum is the greatest.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Comparison, choice and saturation of integers without a branch.
 //
 // The answers are made of masks (an arithmetic shift spreads a sign over the whole word), or of a saturating

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a kernel is: the inner products of a network, written for one type of weights and one instruction set.
 //
 // A kernel is a struct without state. It says how activations and weights lie in memory, and how a layer is

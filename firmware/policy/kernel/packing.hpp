@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the packing of layers is made of: a layer's rows become the words that a kernel reads from front to
 // back, each used once. All of it is run by the compiler; only the words reach the image.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Input scaling: from a raw integer in its own unit to an activation, as firmware/policy/policy.hpp has it:
 //
 //   a = clamp((raw * multiplier + 2^(shift - 1)) >> shift, -32767, 32767)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for the target that is being compiled for, by the compiler's own macros. All give the same bits.
 //
 // Without optimisation the assembly's demands on registers cannot be met: then the kernels are those in C++.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The board's CAN controller as the loop's bus: polled while the loop waits for its tick.
 #pragma once
 

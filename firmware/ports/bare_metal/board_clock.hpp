@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The board's timer as the loop's clock: microseconds in 32 bits, which wrap after 71 minutes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A board's CAN controller: the four functions that a board implements (its board.cmake says CAN file...)
 // and that the tick loop calls, and what it relies on. Boards without one say CAN slcan: slcan_bus.cpp,
 // over a serial port.

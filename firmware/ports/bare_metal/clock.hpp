@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A board's timer: the three functions that a board implements (its board.cmake says CLOCK file...) and
 // that the tick loop calls. 1 ms ticks, and the time within one.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller's image: the built-in node, on a board's 1 ms timer and CAN controller.
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/clock_ticks.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/ports/bare_metal/memory.hpp"
 
 extern "C" {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What reset does to memory before `main`, and how deep the stack has been since.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slcan, the ASCII protocol of serial CAN adapters (LAWICEL CAN232 manual; Linux's slcan driver): a data
 // frame is 't', three digits of identifier, one of length, two for each byte, all hexadecimal, and a carriage
 // return. Other lines (adapter commands and replies) are ignored.

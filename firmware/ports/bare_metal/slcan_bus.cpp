@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CAN over a serial port. No bus is behind it that could be off, and no flow control that could stop it: the
 // transmitter empties itself, so a frame waits for its own letters alone, 220 us at 1 Mbaud. That wait is
 // bounded: a transmitter that takes nothing for a whole tick is broken, and the rest of the line is dropped.

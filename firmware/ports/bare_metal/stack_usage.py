@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The worst-case stack of a bare-metal image: the compiler's frame sizes over the call graph that the image has.
 
 Frame sizes come from GCC's -fcallgraph-info=su files (of the library's assembly: from its pushes); calls from the

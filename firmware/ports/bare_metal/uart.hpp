@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A board's serial port, letter by letter: the three functions that a board with CAN slcan implements (its
 // board.cmake says UART file...). 8 data bits, no parity, 1 stop bit, no flow control, 1 Mbaud or more: a
 // frame takes up to 22 letters, 220 us at 1 Mbaud, and a tick makes 1 or 2 frames as a rule, at most 8.

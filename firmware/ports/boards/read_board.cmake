@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What a board is: a folder with a board.cmake, which says everything in one call. STRIKER_BOARD names the folder: one
 # beside this file by its name, any other by its absolute path. Several boards may have the same processor.
 #

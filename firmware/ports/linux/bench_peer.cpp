@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/ports/linux/bench_peer.hpp"
 
 namespace striker::linux_port {

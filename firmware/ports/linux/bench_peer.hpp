@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The other end of an in-process bus: plays drives that follow the set-points with a lag, a camera that sees
 // a ball come closer, and an operator who arms the controller and clears its faults. So every code path of a
 // kick runs, without a world.

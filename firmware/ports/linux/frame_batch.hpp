@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The frames that a bus of this port has received for one tick.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bus between two threads of one process, for real-time runs without CAN: a ring of frames each way, one
 // writer and one reader each, without locks. A full ring drops the frame, as a full socket does.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times counted in fixed bins, without allocation: 1 us wide up to 1 ms, then eight to a doubling up to
 // 17 minutes; what is longer counts in the last. Least, greatest and sum are exact.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the real-time loop measures of itself, without allocation, and the report of it.
 #pragma once
 

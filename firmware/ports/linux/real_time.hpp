@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a Linux process can ask of the kernel to be on time.
 #pragma once
 

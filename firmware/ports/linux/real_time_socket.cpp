@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/ports/linux/real_time_socket.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A SocketCAN socket for the real-time loop: one system call receives all the frames of a tick, with the
 // kernel's time stamps, and one sends them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a controller in lockstep with a CAN socket's Sync frames, until a stop signal.
 #pragma once
 

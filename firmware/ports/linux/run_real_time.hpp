@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a controller on the port's own 1 ms clock, until a stop signal, and measures it.
 //
 // A tick waits for its absolute deadline, receives at most `frames_per_tick` frames (more wait for the next),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Collision tests, and ODE's contact joints of one step.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sil/world/ode/field.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The floor and the walls as collision shapes that never move.
 #pragma once
 

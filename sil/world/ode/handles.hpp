@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Owners of ODE's objects. Bodies and joints belong to their dWorld and need none.
 #pragma once
 

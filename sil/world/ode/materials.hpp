@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What happens where two materials touch: AI Soccer's contact table, at any physics step.
 #pragma once
 

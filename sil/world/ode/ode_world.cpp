@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sil/world/ode/ode_world.hpp"
 
 #include <cmath>

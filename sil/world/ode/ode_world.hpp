@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every ODE world here has: gravity, damping, softness, and the ball.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One robot as ODE sees it: a box on two hinged cylinder wheels and two frictionless skids.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ceiling is attained, and nothing is above it.
 #include "training/ceiling/ceiling.hpp"
 

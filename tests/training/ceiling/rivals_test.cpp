@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scripted rivals, and where the interceptor's parameters come from.
 #include "training/ceiling/rivals.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The experiment: its workers, its runs as files, its program from start to end.
 #include "training/experiment/experiment.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics over runs: against their definitions, and what an interval promises.
 #include "training/experiment/statistics.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exported header: it compiles, proves itself, and says the same twice.
 #include "training/export/export.hpp"
 

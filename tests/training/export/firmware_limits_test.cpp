@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What no controller could run is refused before it is exported, in words.
 #include "training/export/firmware_limits.hpp"
 

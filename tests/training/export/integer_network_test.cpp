@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exporter's integer network: its arithmetic and its bounds.
 #include "training/export/integer_network.hpp"
 

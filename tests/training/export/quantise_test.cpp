@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The quantiser: the proof holds, the ranges are kept, and the choices stay.
 #include "training/export/quantise.hpp"
 

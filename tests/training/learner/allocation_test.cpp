@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Training allocates its memory before the first episode: after that neither the learner nor its worlds,
 // Eigen and ODE included, ask for more.
 #include <gtest/gtest.h>

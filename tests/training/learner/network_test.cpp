@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The network's forward and backward pass, and Adam.
 #include "training/learner/network.hpp"
 

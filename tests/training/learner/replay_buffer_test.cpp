@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The replay buffer, the n-step returns and the priorities.
 #include "training/learner/replay_buffer.hpp"
 

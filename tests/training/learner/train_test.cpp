@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The learner as a whole.
 #include <gtest/gtest.h>
 

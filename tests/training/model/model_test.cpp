@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Models as files: the project's own and other people's.
 #include "training/model/model.hpp"
 

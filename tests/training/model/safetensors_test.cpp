@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The safetensors reader and writer: round trips, and every malformed file refused in one line.
 #include "training/model/safetensors.hpp"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """A Q network that PyTorch trained and somebody saved as safetensors: read, played and exported.
 Usage: torch_import_test.py BIN_DIRECTORY"""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The programs as a user meets them: help, results, and one line and code 2 for bad input.
 #include <fmt/format.h>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The configuration: what is wrong is named.
 #include "training/run/config.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The task of a model, from the configuration that it holds or is given.
 #include "training/run/model_task.hpp"
 

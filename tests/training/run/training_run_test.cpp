@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A training as a directory: interrupted, resumed, damaged.
 #include "training/run/training_run.hpp"
 

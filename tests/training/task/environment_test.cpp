@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The seam between a task and its learner: an environment that is no kick is played, learnt and evaluated
 // alike.
 #include "training/task/environment.hpp"

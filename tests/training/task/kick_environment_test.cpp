@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The episodes that a learner and an evaluation meet.
 #include "training/task/kick_environment.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The RCS state: what the corrected equations promise, and that the printed ones break it.
 #include "training/task/state.hpp"
 

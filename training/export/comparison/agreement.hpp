@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a controller's choices agree with the float network's.
 #pragma once
 

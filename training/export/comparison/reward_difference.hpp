@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the integer network loses in reward against the float one, in the simulator's world.
 #pragma once
 

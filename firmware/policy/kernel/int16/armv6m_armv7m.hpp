@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for int16 weights and cores without the DSP extension: Armv7-M (Cortex-M3) and Armv6-M
 // (Cortex-M0+). Two rows share a word.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The block of multiplications of the kernel in armv6m_armv7m.hpp: some rows and the next few columns.
 //
 // Of a block of one pair of rows and 2 columns, 4 products, the assembler makes on Armv7-M 8 instructions

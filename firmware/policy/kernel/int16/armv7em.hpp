@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for int16 weights and cores with the DSP extension (Armv7E-M, and Armv8-M and Armv7-R with it):
 // Cortex-M4, M7, M33 and R5.
 //

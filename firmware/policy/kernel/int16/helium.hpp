@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for int16 weights and the M-profile Vector Extension (Helium): Cortex-M55.
 //
 // VMLADAVA multiplies eight pairs of half-words and adds all products to a general register. VLDM loads four

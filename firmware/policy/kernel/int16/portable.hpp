@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel in plain C++: the specification as code, for any target and for the compiler itself.
 //
 // The other kernels are tested against it. Programs take it in builds without optimisation, and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for int16 weights and x86-64: SSE2, which every such processor has.
 //
 // PMADDWD multiplies pairs of half-words and adds each two products. In hidden layers a lane is a row, and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for int8 weights and cores with the DSP extension: Cortex-M4, M7, M33 and R5.
 //
 // A word holds two rows' weights of two columns, the rows' bytes in turns:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for int8 weights and the M-profile Vector Extension (Helium): Cortex-M55.
 //
 // VLDRB.S16 widens eight bytes to half-words as it loads them, for VMLADAVA, which multiplies eight pairs and

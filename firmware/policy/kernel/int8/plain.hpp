@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel for int8 weights in plain C++: Cortex-M3, M0+, the host, and builds without optimisation.
 //
 // Neither Armv6-M nor Armv7-M widens several bytes at once: each byte is loaded with its sign. Four rows

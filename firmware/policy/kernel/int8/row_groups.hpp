@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the int8 kernels without packed words share (Helium, and plain C++): a byte a weight, and rows in
 // groups of four, whose sums are built side by side.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reset and the vector table (Armv6-M to Armv8.1-M Architecture Reference Manuals, "Exception model").
 #include <array>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The SysTick timer's registers: the same on every Cortex-M (Armv6-M Architecture Reference Manual, B3.3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/ports/bare_metal/clock.hpp"
 #include "firmware/ports/bare_metal/cortex_m/systick.hpp"
 

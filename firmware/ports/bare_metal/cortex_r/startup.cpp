@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reset of the Cortex-R5F, which begins in Arm state; everything else is Thumb, as the kernel is.
 //
 // No interrupts: the port polls. An exception finds no vector table of its own here and stays in the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The serial port of Arm's MPS2 and MPS3 boards (CMSDK APB UART: Arm DDI 0479, 4.3); STRIKER_UART says where.
 #include <cstdint>
 

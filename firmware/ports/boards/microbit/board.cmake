@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The BBC micro:bit, whose nRF51 is a Cortex-M0: the Cortex-M0+'s instruction set.
 striker_add_board(
   NAME microbit

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The serial port of Nordic's nRF51 (nRF51 Series Reference Manual 3.0, chapter 28), on the BBC micro:bit's
 // pins.
 #include <cstdint>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Arm's MPS2+ board with the FPGA image of Application Note AN505, in secure state, as it comes out of reset.
 striker_add_board(
   NAME mps2-an505

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Arm's MPS3 board with the FPGA image of Application Note AN547, in secure state, as it comes out of reset.
 striker_add_board(
   NAME mps3-an547

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # AMD's ZCU102: the Zynq UltraScale+ MPSoC's first Cortex-R5F, with the on-chip memory for everything. The timer counts
 # the low-power domain's 100 MHz. QEMU 7.2 has the R5 as its fifth processor, and leaves it switched off.
 striker_add_board(

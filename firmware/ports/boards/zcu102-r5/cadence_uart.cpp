@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The first UART of the Zynq UltraScale+ (AMD UG1087, module UART), as the boot loader left its baud rate.
 #include <cstdint>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ticks from the first triple timer counter (AMD UG1087, module TTC). At 100 MHz its 32 bits wrap after 42 s:
 // asked more often than that, it misses nothing.
 #include "firmware/ports/bare_metal/clock.hpp"

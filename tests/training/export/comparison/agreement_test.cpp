@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Agreement and regret against the float network, and the file of decisions.
 #include "training/export/comparison/agreement.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reward that an integer network loses against the float one, in paired episodes.
 #include "training/export/comparison/reward_difference.hpp"
 
