@@ -6,7 +6,7 @@
 
 namespace striker::host {
 
-// As "0.1.0": the project's version.
+// As "0.2.0": the project's version.
 [[nodiscard]] std::string_view version();
 
 // The commit that was built, as 12 hexadecimal digits; "-dirty" after it if tracked files differed from it;
@@ -15,5 +15,13 @@ namespace striker::host {
 
 // CMake's, as "Release".
 [[nodiscard]] std::string_view build_type();
+
+// All three, as the last fields of a JSON report (nlohmann::ordered_json).
+template <class Json>
+void stamp(Json& report) {
+  report["version"] = version();
+  report["git_hash"] = git_hash();
+  report["build_type"] = build_type();
+}
 
 }  // namespace striker::host

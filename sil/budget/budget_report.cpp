@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/host/atomic_file.hpp"
+#include "firmware/host/version.hpp"
 
 namespace striker::sil {
 
@@ -113,6 +114,7 @@ void write_json(const BusBudget& budget, const std::filesystem::path& file) {
   if (budget.decision) {
     json["decision"] = decision_json(*budget.decision);
   }
+  host::stamp(json);
   host::AtomicFile out(file);
   out.write(json.dump(1) + '\n');
   out.finish();

@@ -10,6 +10,7 @@
 
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "firmware/policy/built_in.hpp"
 #include "sil/bus/bit_rate.hpp"
 #include "sil/bus/in_process_link.hpp"
 #include "sil/bus/socketcan_link.hpp"
@@ -146,8 +147,11 @@ int main(int argc, char** argv) {
   CLI::App* kick = app.add_subcommand("kick", "play the official kick task");
   KickOptions options;
   define(*kick, options);
-  return host::run(app, argc, argv, [&] {
-    host::catch_stop_signals();
-    return play_kicks(options);
-  });
+  return host::run(
+      app, argc, argv,
+      [&] {
+        host::catch_stop_signals();
+        return play_kicks(options);
+      },
+      fmt::format("policy {:08x}", policy::built_in.identity));
 }

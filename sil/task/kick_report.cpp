@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "firmware/host/atomic_file.hpp"
+#include "firmware/host/version.hpp"
 #include "sil/task/mean_estimate.hpp"
 
 namespace striker::sil {
@@ -43,19 +44,21 @@ nlohmann::ordered_json run_json(const KickRun& run) {
   for (std::size_t i = 0; i < run.episodes.size(); ++i) {
     rows.push_back(row_json(run.first_episode + i, run.episodes[i]));
   }
-  return {{"episodes", run.episodes.size()},
-          {"mean_reward", summary.mean_reward},
-          {"reward_ci95", summary.reward_ci95},
-          {"contact_rate", summary.contact_rate},
-          {"kick_rate", summary.kick_rate},
-          {"seed", run.seed},
-          {"plant", run.plant},
-          {"pose", run.pose},
-          {"policy", run.policy},
-          {"simulated_s", run.simulated_s},
-          {"wall_s", run.wall_s},
-          {"realtime_factor", realtime_factor(run)},
-          {"rows", std::move(rows)}};
+  nlohmann::ordered_json report = {{"episodes", run.episodes.size()},
+                                   {"mean_reward", summary.mean_reward},
+                                   {"reward_ci95", summary.reward_ci95},
+                                   {"contact_rate", summary.contact_rate},
+                                   {"kick_rate", summary.kick_rate},
+                                   {"seed", run.seed},
+                                   {"plant", run.plant},
+                                   {"pose", run.pose},
+                                   {"policy", run.policy},
+                                   {"simulated_s", run.simulated_s},
+                                   {"wall_s", run.wall_s},
+                                   {"realtime_factor", realtime_factor(run)},
+                                   {"rows", std::move(rows)}};
+  host::stamp(report);
+  return report;
 }
 
 std::string cell(bool known, double value, int decimals) {

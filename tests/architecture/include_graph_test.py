@@ -41,7 +41,7 @@ ARROWS = {
                    "firmware/loop", "firmware/policy"],
     "sil/scenario": ["sil/record", "sil/robot", "sil/bus", "sil/task", "sil/world", "firmware/can", "firmware/core"],
     "sil/budget": ["sil/bus", "firmware/can", "firmware/core", "firmware/host", "firmware/loop"],
-    "sil/programs": ["sil", "firmware/host", "firmware/can", "firmware/core", "firmware/loop"],
+    "sil/programs": ["sil", "firmware/host", "firmware/can", "firmware/core", "firmware/loop", "firmware/policy"],
     "training/task": ["sil/world", "sil/task", "firmware/policy"],
     "training/learner": ["training/task", "sil/world", "sil/task"],
     "training/model": ["training/learner", "firmware/host"],

@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "firmware/host/version.hpp"
 #include "training/ceiling/ceiling_figures.hpp"
 
 namespace striker::training {
@@ -75,6 +76,7 @@ std::string ceiling_json(const CeilingOptions& options, const std::vector<Ceilin
   for (const auto& [name, summary] : figures.rivals) {
     report["rivals"][name] = json_of(summary, mean);
   }
+  host::stamp(report);
   return report.dump(2) + "\n";
 }
 

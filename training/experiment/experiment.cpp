@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "firmware/host/files.hpp"
+#include "firmware/host/version.hpp"
 #include "training/model/hash.hpp"
 #include "training/model/model.hpp"
 #include "training/run/evaluation.hpp"
@@ -140,7 +141,7 @@ void carry_out(const SeedRun& run, const std::filesystem::path& directory) {
   }
   const Model model = model_of(training);
   const TaskConfig& task = run.variant->config.environments.front();
-  const nlohmann::ordered_json figures = {
+  nlohmann::ordered_json figures = {
       {"variant", run.variant->name},
       {"seed", run.seed},
       {"configuration_hash", configuration_hash(*run.variant)},
@@ -150,6 +151,7 @@ void carry_out(const SeedRun& run, const std::filesystem::path& directory) {
       {"evaluation_episodes", evaluation_episodes},
       {"origin_mean", mean_reward_at(sil::PoseMode::origin, task, model.parameters)},
       {"anywhere_mean", mean_reward_at(sil::PoseMode::anywhere, task, model.parameters)}};
+  host::stamp(figures);
   host::write_file(curve_file, curve);
   save_model(model, model_file);
   host::write_file(figures_file, figures.dump(2) + "\n");

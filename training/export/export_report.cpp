@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "training/export/export_report.hpp"
+#include "firmware/host/version.hpp"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,7 @@ std::string report_of(const Export& exported, const Model& model) {
                       {"float_mean", exported.reward.float_mean},
                       {"integer_mean", exported.reward.integer_mean},
                       {"standard_error", exported.reward.standard_error}};
+  host::stamp(report);
   return report.dump(2) + "\n";
 }
 

@@ -10,6 +10,7 @@
 
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/files.hpp"
+#include "firmware/host/version.hpp"
 #include "sil/task/kick_report.hpp"
 #include "training/export/comparison/agreement.hpp"
 #include "training/model/model.hpp"
@@ -61,13 +62,14 @@ int evaluate_decisions(const Options& options, const Model& model, const TaskCon
   const Agreement result =
       agreement(model.parameters, task.inputs, load_decisions(options.decisions, model.parameters.shape()));
   if (!options.json.empty()) {
-    const nlohmann::ordered_json report = {{"policy", model_identity(model.parameters)},
-                                           {"states", result.states},
-                                           {"agreement", result.agreement},
-                                           {"clear_gap", clear_gap},
-                                           {"clear_states", result.clear_states},
-                                           {"clear_agreement", result.clear_agreement},
-                                           {"mean_regret", result.mean_regret}};
+    nlohmann::ordered_json report = {{"policy", model_identity(model.parameters)},
+                                     {"states", result.states},
+                                     {"agreement", result.agreement},
+                                     {"clear_gap", clear_gap},
+                                     {"clear_states", result.clear_states},
+                                     {"clear_agreement", result.clear_agreement},
+                                     {"mean_regret", result.mean_regret}};
+    host::stamp(report);
     host::write_file(options.json, report.dump(2) + "\n");
   }
   fmt::print(
