@@ -10,7 +10,7 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/striker)
 
 install(TARGETS ${libraries} EXPORT striker ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${folders} DESTINATION include/striker/firmware FILES_MATCHING PATTERN "*.hpp")
-install(FILES can/striker.dbc DESTINATION share/striker)
+install(FILES can/striker.dbc ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/striker)
 install(EXPORT striker FILE striker-config.cmake NAMESPACE striker:: DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/striker-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)

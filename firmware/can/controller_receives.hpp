@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The identifiers that the controller listens to: no other frame can move it. A port filters by them.
+// The identifiers that a controller listens to: no other frame can move it. A port filters by them. The only
+// list: operator, vision, Sync, and what the drives tell.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
+#include "firmware/can/drives/drive_protocol.hpp"
 #include "firmware/can/messages.hpp"
 
 namespace striker::can {
 
-inline constexpr std::array<std::uint16_t, 6> controller_receives = {
-    layout<EmergencyStop>.info.id, layout<Sync>.info.id,       layout<ModeCommand>.info.id,
-    layout<WheelState>.info.id,    layout<VisionPose>.info.id, layout<VisionBall>.info.id};
+template <DriveProtocol Drives>
+inline constexpr auto controller_receives = [] {
+  constexpr std::array<std::uint16_t, 5> always = {layout<EmergencyStop>.info.id, layout<Sync>.info.id,
+                                                   layout<ModeCommand>.info.id, layout<VisionPose>.info.id,
+                                                   layout<VisionBall>.info.id};
+  std::array<std::uint16_t, always.size() + Drives::receives.size()> all{};
+  std::copy(Drives::receives.begin(), Drives::receives.end(),
+            std::copy(always.begin(), always.end(), all.begin()));
+  return all;
+}();
 
 }  // namespace striker::can

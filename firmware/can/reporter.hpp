@@ -36,6 +36,7 @@ class Reporter {
  public:
   // One of each at most, in a tick.
   static constexpr std::size_t most_frames = 6;
+  static_assert(most_frames + 2 == messages_from(Node::controller), "all but WheelCommand and EndOfTick");
 
   void report(std::uint32_t tick, const core::Actions& actions, const IgnoredFrames& ignored,
               const Timing& timing, std::uint32_t policy_identity, FrameList& frames);

@@ -19,9 +19,11 @@
 
 namespace striker::loop {
 
-template <class ControllerType, can::DriveProtocol Drives>
+template <class ControllerType, can::DriveProtocol DrivesType>
 class ControllerNode {
  public:
+  using Drives = DrivesType;
+
   explicit constexpr ControllerNode(const core::RobotProfile& robot) : controller_(robot) {}
 
   // Replaces what is in `frames`.
@@ -46,7 +48,7 @@ class ControllerNode {
 
  private:
   static constexpr std::size_t end_of_tick = 1;  // lockstep adds it
-  static_assert(can::Reporter::most_frames + Drives::most_frames + end_of_tick <= can::FrameList::capacity);
+  static_assert(can::Reporter::most_frames + Drives::sends.size() + end_of_tick <= can::FrameList::capacity);
 
   // Apart from `step`, whose stack would hold the new node too.
   [[gnu::noinline]] void restart() { *this = ControllerNode(controller_.robot()); }

@@ -44,13 +44,16 @@ class SyncTicks {
 
   void end(can::FrameList& sent) {
     if (answers_sync_) {
+      count_ = 0;  // a tick of the port's own took none of them
       sent.add(
           can::send(can::EndOfTick{.tick = static_cast<std::int32_t>(tick_ & low_31_bits)}, end_counter_));
     }
-    count_ = 0;
   }
 
   void done() {}
+
+  // The last tick was a Sync, not the port's own.
+  [[nodiscard]] bool answered_sync() const { return answers_sync_; }
 
  private:
   static constexpr std::uint32_t low_31_bits = 0x7FFFFFFF;

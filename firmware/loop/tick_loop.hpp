@@ -64,7 +64,7 @@ class TickLoop {
 
  private:
   void send() {
-    refused_frames_ += frames_.keep(safety::may_send);
+    refused_frames_ += frames_.keep(safety::may_send<typename Node::Drives>);
     const auto frames = frames_.frames();
     dropped_frames_ += frames.size() - bus_.try_send(frames);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The elements of state that a policy can read, in the robot's frame (RCS, the paper's section III), and the
-// controller's integer unit of each. The only list of them: the controller, the trainer, the exporter and the
-// decision CSV read this table.
+// controller's integer unit of each. The controller, the exporter and the decision CSV read this table; the
+// trainer's, which has more elements, is checked against it by the compiler.
 //
 // A new element is an enumerator and a row here, and its value in firmware/core/estimation/relative_state.cpp.
 #pragma once

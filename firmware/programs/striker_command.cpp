@@ -55,9 +55,7 @@ std::optional<can::Status> await_status(host::CanSocket& socket, std::chrono::mi
 
 std::string describe(const can::Status& status) {
   return fmt::format(
-      "state {}, fault {}, vision {}, wheels {}, ignored frames: {} wrong length, {} wrong CRC, {} wrong "
-      "counter, "
-      "{} out of range",
+      "state {}, fault {}, vision {}, wheels {}, ignored frames: {} wrong length, {} wrong CRC, {} wrong counter, {} out of range",
       core::name_of(static_cast<core::State>(status.state)),
       core::name_of(static_cast<core::Fault>(status.fault)), status.vision_ready != 0 ? "ready" : "not ready",
       status.wheels_ready != 0 ? "ready" : "not ready", status.wrong_length, status.wrong_crc,
@@ -109,9 +107,7 @@ int run(const std::string& interface, const std::string& command, std::chrono::m
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Sends a command to the controller and waits for its effect. Exit status: 0 done, 1 no effect, 2 no "
-      "answer "
-      "or no bus.",
+      "Sends a command to the controller and waits for its effect. Exit status: 0 done, 1 no effect, 2 no answer or no bus.",
       "striker-command");
   std::string interface;
   unsigned timeout_ms = 1000;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "firmware/can/controller_receives.hpp"
+#include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
 #include "firmware/policy/built_in.hpp"
@@ -142,8 +143,7 @@ void print_granted(const Options& options, const Granted& granted) {
   if (!granted.complete) {
     fmt::print(
         stderr,
-        "striker-firmware: the kernel refused what stands above: timing is best effort; run as root or "
-        "grant CAP_SYS_NICE and CAP_IPC_LOCK\n");
+        "striker-firmware: the kernel refused what stands above: timing is best effort; run as root or grant CAP_SYS_NICE and CAP_IPC_LOCK\n");
   }
 }
 
@@ -151,7 +151,7 @@ void run_on_sync(const Options& options) {
   if (options.in_process) {
     throw std::runtime_error("--in-process has no SYNC: use it with --clock realtime");
   }
-  host::CanSocket socket(options.can, can::controller_receives);
+  host::CanSocket socket(options.can, can::controller_receives<can::StrikerDrives>);
   print_granted(options, ask_for_real_time(settings_of(options)));
   const LockstepReport report = run_lockstep(socket, std::chrono::milliseconds(options.sync_timeout_ms));
   fmt::print("striker-firmware: stopped after {} ticks; {} frames dropped\n", report.ticks,
@@ -167,7 +167,7 @@ void run_on_own_clock(Options options) {
   if (options.in_process) {
     bench.emplace(in_process, settings);
   } else {
-    socket.emplace(options.can, can::controller_receives);
+    socket.emplace(options.can, can::controller_receives<can::StrikerDrives>);
   }
   std::atomic<core::Fault> fault = core::Fault::none;
   FaultAnnouncer announcer;

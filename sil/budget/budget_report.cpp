@@ -34,8 +34,7 @@ std::string row(const BusMessage& message, const MessageResponse& response) {
 
 std::string decision_text(const DecisionDeadline& decision) {
   return fmt::format(
-      "picture to torque command: at most {} ms = picture {} + tick phase {} + lateness {} + step {} + "
-      "command {}\n",
+      "picture to torque command: at most {} ms = picture {} + tick phase {} + lateness {} + step {} + command {}\n",
       ms(decision.total_ns()), ms(decision.picture_ns), ms(decision.phase_ns),
       ms(decision.controller.lateness_ns), ms(decision.controller.step_ns), ms(decision.command_ns));
 }

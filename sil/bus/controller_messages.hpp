@@ -11,12 +11,7 @@
 
 namespace striker::sil {
 
-inline constexpr std::size_t controller_message_count = [] {
-  std::size_t count = 0;
-  can::for_each_layout(
-      [&](const auto& message) { count += message.info.sender == can::Node::controller ? 1 : 0; });
-  return count;
-}();
+inline constexpr std::size_t controller_message_count = can::messages_from(can::Node::controller);
 
 // In the order of the table.
 inline constexpr auto controller_identifiers = [] {

@@ -34,9 +34,9 @@ void define(CLI::App& app, Options& options) {
   app.add_option("--bitrate", options.bitrate, "of the bus, in bit/s")
       ->check(CLI::Validator(bit_rate_problem, "bit/s"))
       ->capture_default_str();
-  app.add_option("--dbc", options.dbc,
-                 "take the messages of this file (GenMsgCycleTime, GenMsgDelayTime, Burst, Deadline), not "
-                 "Striker's own");
+  app.add_option(
+      "--dbc", options.dbc,
+      "take the messages of this file (GenMsgCycleTime, GenMsgDelayTime, Burst, Deadline), not Striker's own");
   app.add_option("--default-distance-ms", options.default_distance_ms,
                  "shortest distance of messages for which the DBC gives neither period nor distance")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{10'000'000}))

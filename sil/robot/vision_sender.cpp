@@ -27,7 +27,7 @@ std::array<can::Frame, 2> VisionSender::frames(const Picture& picture) {
   const can::VisionBall ball{.frame = frame_,
                              .x_quarter_mm = to_quarter_mm(picture.ball_m.x),
                              .y_quarter_mm = to_quarter_mm(picture.ball_m.y)};
-  frame_ = (frame_ + 1) % 16;
+  frame_ = (frame_ + 1) % core::picture_numbers;
   return {can::send(pose, pose_counter_), can::send(ball, ball_counter_)};
 }
 

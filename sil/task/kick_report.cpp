@@ -113,8 +113,7 @@ std::string format_table(const KickRun& run, bool rows) {
   }
   const KickSummary summary = kick_summary(run.episodes);
   text += fmt::format(
-      "{} episodes: mean reward {:.3f} +- {:.3f}, contact rate {:.3f}, kick rate {:.3f}, {:.1f} x real "
-      "time\n",
+      "{} episodes: mean reward {:.3f} +- {:.3f}, contact rate {:.3f}, kick rate {:.3f}, {:.1f} x real time\n",
       run.episodes.size(), summary.mean_reward, summary.reward_ci95, summary.contact_rate, summary.kick_rate,
       realtime_factor(run));
   return text;

@@ -9,13 +9,15 @@
 
 #include <cstdint>
 
+#include "firmware/core/tick.hpp"
+#include "firmware/policy/policy.hpp"
 #include "sil/task/kick_world.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {
 
-inline constexpr int kick_decisions = 40;
-inline constexpr int decision_period_ms = 50;  // the AI Soccer frame
+inline constexpr int kick_decisions = policy::decisions_a_kick;
+inline constexpr int decision_period_ms = core::decision_period_ms;  // the AI Soccer frame
 inline constexpr double decision_period_s = decision_period_ms / 1000.0;
 
 enum class PoseMode { origin, anywhere };

@@ -66,6 +66,24 @@ TEST_F(Lockstep, AnOverdueSyncIsOneFaultWithoutAnEndOfTick) {
   EXPECT_FALSE(loop_.turn());
 }
 
+// What waits for the next Sync is not the port's: a stop that was pressed meanwhile is not lost.
+TEST_F(Lockstep, AStopThatCameBeforeAnOverdueSyncIsTakenWithTheNextOne) {
+  for (std::uint32_t tick = 0; tick < 260; ++tick) {
+    turn(tick);
+  }
+  can::SendCounter counter;
+  bus_.waiting = {can::send(can::EmergencyStop{}, counter)};
+  EXPECT_FALSE(loop_.turn());
+  ticks_.overdue();
+  EXPECT_TRUE(loop_.turn());
+  bus_.waiting = {world_.mode(can::Mode::clear), world_.sync(260)};
+  loop_.turn();
+  EXPECT_EQ(loop_.node().controller().state(), core::State::fault);
+  bus_.waiting = {world_.mode(can::Mode::clear), world_.sync(261)};
+  loop_.turn();
+  EXPECT_EQ(loop_.node().controller().state(), core::State::fault) << "the stop still holds";
+}
+
 TEST_F(Lockstep, SyncZeroBeginsAnewWithTheSameAnswers) {
   std::vector<std::vector<can::Frame>> first;
   for (std::uint32_t tick = 0; tick < 260; ++tick) {

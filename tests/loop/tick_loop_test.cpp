@@ -136,6 +136,7 @@ TEST_F(BoardLoop, AFloodTakesItsShareOfATickAndNoMore) {
 // A node that has gone mad: what it may not send does not go out.
 class MadNode {
  public:
+  using Drives = can::StrikerDrives;
   explicit MadNode(const core::RobotProfile&) {}
   void step(const Tick&, can::FrameList& frames) {
     frames.clear();

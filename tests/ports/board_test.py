@@ -72,7 +72,7 @@ class Board(unittest.TestCase):
         image = image_test.image(self.build_dir, "controller")
         self.assertGreater(os.path.getsize(image.replace(".elf", ".bin")), 0)
         symbols = run("arm-none-eabi-nm", "-C", image).stdout
-        self.assertRegex(symbols, r"(?m)^08000[0-9a-f]{3} . reset$")
+        self.assertRegex(symbols, r"(?m)^0800[0-9a-f]{4} . reset$")
         self.assertRegex(symbols, r"striker::bare_metal::try_send_can")
         self.assertNotRegex(symbols, r"uart::|Slcan")
 

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 #include <utility>
+
+#include "firmware/can/drives/striker_drives.hpp"
 
 namespace striker::safety {
 namespace {
@@ -18,9 +21,20 @@ TEST(Whitelist, HoldsTheControllersMessagesAndNothingElse) {
     for (int length = 0; length <= 8; ++length) {
       const can::Frame frame{
           .id = static_cast<std::uint16_t>(id), .length = static_cast<std::uint8_t>(length), .data = {}};
-      ASSERT_EQ(may_send(frame), wanted.contains({id, length})) << id << " " << length;
+      ASSERT_EQ(may_send<can::StrikerDrives>(frame), wanted.contains({id, length})) << id << " " << length;
     }
   }
+}
+
+// Drives of another make, whose frames the message table does not have.
+struct OtherDrives : can::StrikerDrives {
+  static constexpr std::array<std::uint16_t, 2> sends = {0x00D, 0x02D};
+};
+
+TEST(Whitelist, FollowsTheDrivesThatAreSpokenTo) {
+  EXPECT_TRUE(may_send<OtherDrives>({.id = 0x02D, .length = 8, .data = {}}));
+  EXPECT_FALSE(may_send<can::StrikerDrives>({.id = 0x02D, .length = 8, .data = {}}));
+  EXPECT_FALSE(may_send<OtherDrives>({.id = 0x040, .length = 2, .data = {}}));
 }
 
 }  // namespace

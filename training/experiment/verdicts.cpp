@@ -35,8 +35,7 @@ std::string claims_table(const std::vector<VariantSummary>& summaries) {
       return wide->crossings[level].episode.value - rcs.crossings[level].episode.value;
     };
     text += fmt::format(
-        "| about 500 episodes before the ACS-sized state | {:.0f} episodes earlier to -4, {:.0f} to 0, {:.0f} to 50 % "
-        "| {} |\n",
+        "| about 500 episodes before the ACS-sized state | {:.0f} episodes earlier to -4, {:.0f} to 0, {:.0f} to 50 % | {} |\n",
         delay(0), delay(1), delay(2),
         delay(1) > 250.0 && delay(2) > 250.0 ? "yes"
         : delay(1) > 0.0 && delay(2) > 0.0   ? "earlier, by less"

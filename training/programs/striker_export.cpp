@@ -47,8 +47,7 @@ int export_to(const Options& options) {
              agreement.mean_regret);
   const RewardDifference& reward = exported.reward;
   fmt::print(
-      "in play, {} episodes of the servo plant: mean reward {:.3f}, float {:.3f}, difference {:+.4f} +- "
-      "{:.4f}\n",
+      "in play, {} episodes of the servo plant: mean reward {:.3f}, float {:.3f}, difference {:+.4f} +- {:.4f}\n",
       reward.episodes, reward.integer_mean, reward.float_mean, reward.integer_mean - reward.float_mean,
       1.96 * reward.standard_error);
   return 0;

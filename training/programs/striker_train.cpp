@@ -30,8 +30,7 @@ std::string mean_or_not(std::optional<double> mean) {
 
 void report(const TrainingResult& result, const Config& config, const std::filesystem::path& out) {
   fmt::print(
-      "{} episodes, {} decisions, {} gradient steps; mean reward over the last {}: {:.3f}; greedy, on {} "
-      "validation episodes: {}\n",
+      "{} episodes, {} decisions, {} gradient steps; mean reward over the last {}: {:.3f}; greedy, on {} validation episodes: {}\n",
       result.episodes, result.decisions, result.gradient_steps,
       std::min(moving_average_span, result.episodes), result.moving_average, config.run.validation_episodes,
       mean_or_not(result.mean_reward));
@@ -60,8 +59,7 @@ int train_and_save(const Options& options) {
   if (result.interrupted) {
     fmt::print(
         stderr,
-        "striker-train: interrupted after {} of {} episodes; everything so far is kept, add --resume to "
-        "go on\n",
+        "striker-train: interrupted after {} of {} episodes; everything so far is kept, add --resume to go on\n",
         result.episodes, config.run.episodes);
     return host::exit_interrupted;
   }

@@ -41,6 +41,7 @@ constexpr std::array<ElementFacts, 18> facts = {{
 // signs.
 constexpr bool is_the_firmwares(Element element, policy::StateElement of_firmware) {
   return static_cast<int>(element) == static_cast<int>(of_firmware) &&
+         facts[static_cast<std::size_t>(element)].name == policy::row_of(of_firmware).name &&
          (facts[static_cast<std::size_t>(element)].mirror < 0.0F) == policy::changes_sign(of_firmware) &&
          facts[static_cast<std::size_t>(element)].raw_per_value != 0.0;
 }

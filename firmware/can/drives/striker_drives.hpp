@@ -3,6 +3,9 @@
 // (messages/drives.hpp).
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "firmware/can/drives/drive_protocol.hpp"
 #include "firmware/can/message_receiver.hpp"
 #include "firmware/can/messages.hpp"
@@ -11,7 +14,8 @@ namespace striker::can {
 
 class StrikerDrives {
  public:
-  static constexpr std::size_t most_frames = 1;
+  static constexpr std::array<std::uint16_t, 1> sends = {layout<WheelCommand>.info.id};
+  static constexpr std::array<std::uint16_t, 1> receives = {layout<WheelState>.info.id};
 
   [[nodiscard]] static bool owns(const Frame& frame) { return is<WheelState>(frame); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "firmware/can/layout.hpp"
+#include "firmware/core/decision_clock.hpp"
 #include "firmware/core/state.hpp"
 #include "firmware/core/tick.hpp"
 
@@ -109,7 +110,7 @@ inline constexpr auto layout<Decision> = Layout<Decision, 5>{
              .sender = Node::controller,
              .period_ms = core::decision_period_ms,
              .comment = "What the Q network chose.",
-             .traffic = on_changes(45, 2)},
+             .traffic = on_changes(core::decision_period_ticks - core::decision_window_ticks, 2)},
     .signals = {
         {{.name = "number", .field = &Decision::number, .first_bit = 0, .bits = 16, .maximum = 65535},
          {.name = "action", .field = &Decision::action, .first_bit = 16, .bits = 4, .maximum = 15},

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "firmware/can/layout.hpp"
+#include "firmware/core/decision_clock.hpp"
 #include "firmware/core/percepts.hpp"
 #include "firmware/core/tick.hpp"
 
@@ -28,7 +29,7 @@ inline constexpr auto layout<VisionPose> =
                                    .timeout_ms = core::vision_timeout_ticks,
                                    .data_id = 0x5A70,
                                    .comment = "The robot, as the camera sees it.",
-                                   .traffic = due_within(5)},
+                                   .traffic = due_within(core::decision_window_ticks)},
                           .signals = {{{.name = "frame",
                                         .field = &VisionPose::frame,
                                         .first_bit = 12,
@@ -78,7 +79,7 @@ inline constexpr auto layout<VisionBall> =
                                    .timeout_ms = core::vision_timeout_ticks,
                                    .data_id = 0x5A80,
                                    .comment = "The ball in the same picture.",
-                                   .traffic = due_within(5)},
+                                   .traffic = due_within(core::decision_window_ticks)},
                           .signals = {{{.name = "frame",
                                         .field = &VisionBall::frame,
                                         .first_bit = 12,

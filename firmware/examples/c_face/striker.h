@@ -56,8 +56,7 @@ void striker_init(striker_controller* controller);
  * most `capacity` answers, in the order of sending, and returns how many the step made: more than `capacity`
  * means that the last were lost, the wheel command among them: give it room for STRIKER_MOST_ANSWERS.
  *
- * Cost on a Cortex-M4: about 1,100 instructions, 13,000 with a decision (every 50 ticks), for the committed
- * policy. */
+ * Cost: firmware/policy/README.md. */
 size_t striker_step(striker_controller* controller, const striker_frame* frames, size_t count, uint32_t tick,
                     striker_frame* answers, size_t capacity);
 

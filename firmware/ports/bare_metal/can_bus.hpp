@@ -12,9 +12,8 @@
 // With a 40 MHz clock, for example, 20 quanta of 2 clocks: 1 synchronisation, 14 propagation and phase 1,
 // 5 phase 2. Within 0.1 % of the bit rate, from a crystal: an RC oscillator is too coarse.
 //
-// Acceptance filters. Standard data frames with an identifier of a message of firmware/can/messages.hpp
-// whose sender is not the controller: EmergencyStop, ModeCommand, WheelState, VisionPose and VisionBall;
-// Sync as well where the loop runs in lockstep. Extended and remote frames never pass: can::Frame cannot
+// Acceptance filters. Standard data frames with the identifiers of firmware/can/controller_receives.hpp,
+// which is the only list. Extended and remote frames never pass: can::Frame cannot
 // tell them apart. The controller's receive checks ignore what it does not know, so a filter only saves
 // time and room; without one, all standard data frames may pass.
 //
@@ -28,7 +27,7 @@
 //
 // Transmission. The lowest identifier first, as the bus arbitrates, or a status frame holds back a wheel
 // command: that is what striker-bus-budget reckons with. Frames of one identifier keep the order of the
-// calls, or their counters look like a loss. A tick makes 1 or 2 frames as a rule, and at most 8. A frame
+// calls, or their counters look like a loss. A tick makes 1 or 2 frames as a rule, and at most 7. A frame
 // that has not gone after 10 ms is taken back (the wheel command's timeout: the drives have cut the
 // torque), and at bus-off all are: a command that waits for a cable must not move a wheel when that is
 // plugged in.

@@ -43,11 +43,12 @@ void BenchPeer::take(const can::Frame& frame) {
 
 void BenchPeer::send_picture(std::int64_t now_ns) {
   const auto number = static_cast<std::int32_t>(tick_ / picture_ticks);
-  bus_->send_to_controller(can::send(can::VisionPose{.frame = number % 16}, pose_counter_), now_ns);
-  bus_->send_to_controller(
-      can::send(can::VisionBall{.frame = number % 16, .x_quarter_mm = 8000 - 200 * (number % 40)},
-                ball_counter_),
-      now_ns);
+  bus_->send_to_controller(can::send(can::VisionPose{.frame = number % core::picture_numbers}, pose_counter_),
+                           now_ns);
+  bus_->send_to_controller(can::send(can::VisionBall{.frame = number % core::picture_numbers,
+                                                     .x_quarter_mm = 8000 - 200 * (number % 40)},
+                                     ball_counter_),
+                           now_ns);
 }
 
 void BenchPeer::operate(std::int64_t now_ns) {

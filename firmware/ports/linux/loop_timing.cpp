@@ -56,8 +56,7 @@ ResourceUse operator-(const ResourceUse& later, const ResourceUse& earlier) {
 
 std::string summary(const LoopTiming& timing) {
   return fmt::format(
-      "stopped after {} ticks; {} periods missed; lateness mean {:.1f} us, 99.9 % within {} us, max {:.1f} "
-      "us; "
+      "stopped after {} ticks; {} periods missed; lateness mean {:.1f} us, 99.9 % within {} us, max {:.1f} us; "
       "execution mean {:.1f} us, max {:.1f} us; {} + {} page faults; {} frames dropped",
       timing.ticks, timing.missed_periods, timing.lateness.mean_ns() / 1e3,
       timing.lateness.percentile_us(0.999), static_cast<double>(timing.lateness.max_ns()) / 1e3,
@@ -67,26 +66,24 @@ std::string summary(const LoopTiming& timing) {
 
 void write_json(const LoopTiming& timing, const std::vector<std::string>& settings,
                 const std::filesystem::path& file) {
-  const nlohmann::ordered_json json = {{"program", "striker-firmware"},
-                                       {"version", host::version()},
-                                       {"git_hash", host::git_hash()},
-                                       {"build_type", host::build_type()},
-                                       {"kernel", kernel()},
-                                       {"settings", settings},
-                                       {"ticks", timing.ticks},
-                                       {"missed_periods", timing.missed_periods},
-                                       {"longest_stall_periods", timing.longest_stall_periods},
-                                       {"received_frames", timing.received_frames},
-                                       {"full_ticks", timing.full_ticks},
-                                       {"dropped_frames", timing.dropped_frames},
-                                       {"fault", core::name_of(timing.fault)},
-                                       {"minor_faults", timing.resources.minor_faults},
-                                       {"major_faults", timing.resources.major_faults},
-                                       {"voluntary_switches", timing.resources.voluntary_switches},
-                                       {"involuntary_switches", timing.resources.involuntary_switches},
-                                       {"lateness", histogram_json(timing.lateness)},
-                                       {"execution", histogram_json(timing.execution)},
-                                       {"receive_to_command", histogram_json(timing.latency)}};
+  nlohmann::ordered_json json = {{"program", "striker-firmware"},
+                                 {"kernel", kernel()},
+                                 {"settings", settings},
+                                 {"ticks", timing.ticks},
+                                 {"missed_periods", timing.missed_periods},
+                                 {"longest_stall_periods", timing.longest_stall_periods},
+                                 {"received_frames", timing.received_frames},
+                                 {"full_ticks", timing.full_ticks},
+                                 {"dropped_frames", timing.dropped_frames},
+                                 {"fault", core::name_of(timing.fault)},
+                                 {"minor_faults", timing.resources.minor_faults},
+                                 {"major_faults", timing.resources.major_faults},
+                                 {"voluntary_switches", timing.resources.voluntary_switches},
+                                 {"involuntary_switches", timing.resources.involuntary_switches},
+                                 {"lateness", histogram_json(timing.lateness)},
+                                 {"execution", histogram_json(timing.execution)},
+                                 {"receive_to_command", histogram_json(timing.latency)}};
+  host::stamp(json);
   host::write_file(file, json.dump(1) + '\n');
 }
 

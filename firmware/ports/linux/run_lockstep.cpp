@@ -55,8 +55,8 @@ LockstepReport run_lockstep(host::CanSocket& socket, std::chrono::milliseconds s
   auto last_sync = Clock::now();
   while (!host::stop_requested()) {
     while (loop.turn()) {
-      ++report.ticks;
-      last_sync = Clock::now();
+      report.ticks += ticks.answered_sync() ? 1 : 0;
+      last_sync = ticks.answered_sync() ? Clock::now() : last_sync;
     }
     if (Clock::now() - last_sync > sync_timeout) {
       ticks.overdue();
