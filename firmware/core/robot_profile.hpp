@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace striker::core {
 
@@ -80,6 +81,29 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
           .kp_q8 = rounded_ratio(256 * kp_e9, e9),
           .ki_tick_q16 = rounded_ratio(65'536 * integral_corner_rad_s * kp_e9, ticks_a_second * e9)};
 }
+
+// No product and no sum of the wheel loops leaves 32 bits, for measured speeds within +-8000 mm/s. Where a loop
+// integrates it is not saturated: its error is what the torque limit allows, or less.
+[[nodiscard]] constexpr bool loops_fit(const RobotProfile& robot) {
+  constexpr std::int32_t greatest_measured_mm_s = 8'000;
+  constexpr std::int32_t greatest_torque_mNm = 32'000;
+  if (robot.torque_limit_mNm <= 0 || robot.torque_limit_mNm > greatest_torque_mNm || robot.kp_q8 <= 0 ||
+      robot.ki_tick_q16 < 0 || robot.top_rim_speed_mm_s <= 0 ||
+      robot.top_rim_speed_mm_s > greatest_measured_mm_s) {
+    return false;
+  }
+  constexpr std::int64_t greatest = std::numeric_limits<std::int32_t>::max();
+  const std::int32_t error_mm_s = greatest_measured_mm_s + robot.top_rim_speed_mm_s;
+  const std::int32_t integrated_mm_s = (2 * robot.torque_limit_mNm + 2) * 256 / robot.kp_q8 + 1;
+  return std::int64_t{error_mm_s} * robot.kp_q8 <= greatest &&
+         std::int64_t{robot.torque_limit_mNm} * 65536 +
+                 std::int64_t{integrated_mm_s < error_mm_s ? integrated_mm_s : error_mm_s} *
+                     robot.ki_tick_q16 <=
+             greatest;
+}
+
+static_assert(loops_fit(profile_of(forward)) && loops_fit(profile_of(defender)) &&
+              loops_fit(profile_of(goalkeeper)));
 
 static_assert(profile_of(forward) == RobotProfile{.torque_limit_mNm = 400,
                                                   .top_rim_speed_mm_s = 2550,

@@ -128,6 +128,7 @@ bool CanSocket::send(const can::Frame& frame) {
 std::optional<can::Frame> CanSocket::accept(const can_frame& wire) {
   if ((wire.can_id & CAN_ERR_FLAG) != 0) {
     health_ = health_after(wire, health_);
+    went_off_ = went_off_ || health_ == can::BusHealth::bus_off;
     return std::nullopt;
   }
   health_ = health_ == can::BusHealth::bus_off ? can::BusHealth::active : health_;

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "firmware/can/bus_health.hpp"
 #include "firmware/can/frame.hpp"
@@ -39,8 +40,11 @@ class CanSocket {
   // True when something can be received; false at the timeout or at a signal.
   bool wait(std::chrono::microseconds timeout);
 
-  // As the error frames that came tell it: off the bus until it is restarted or a frame is received.
-  [[nodiscard]] can::BusHealth health() const { return health_; }
+  // As the error frames that came tell it: off the bus until it is restarted or a frame is received, and for
+  // one call at least, even if it was over by then.
+  [[nodiscard]] can::BusHealth health() {
+    return std::exchange(went_off_, false) ? can::BusHealth::bus_off : health_;
+  }
 
   // For other calls on this socket: its file descriptor, and what came as a frame, or nothing for an error
   // frame, which is taken note of.
@@ -53,6 +57,7 @@ class CanSocket {
   std::string interface_;
   int socket_ = -1;
   can::BusHealth health_ = can::BusHealth::active;
+  bool went_off_ = false;  // since `health` was asked
 };
 
 }  // namespace striker::host

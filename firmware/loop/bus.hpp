@@ -10,7 +10,8 @@
 //                     the port's buffer, and stay there until the next `poll` or `receive`
 //   try_send(frames)  offers each, in this order, and returns how many were taken. The others are lost: the
 //                     next tick has newer ones, and the receivers see the gap
-//   health()          whether the controller is error passive or off the bus, as of now
+//   health()          whether the controller is error passive or off the bus: as of now, and off for one call at
+//                     least, even if that was over by then
 #pragma once
 
 #include <concepts>

@@ -10,7 +10,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "firmware/loop/bus.hpp"
 #include "firmware/loop/clock.hpp"
@@ -47,11 +49,11 @@ class ClockTicks {
   std::optional<Tick> next(BusType& bus) {
     if (!begun_) {
       begun_ = true;
-      start_ = clock_->now();
+      end_ = clock_->now();
     }
     last_ = {.wake = clock_->wait([&bus] { bus.poll(); })};
     begin_ = clock_->now();
-    const bool overrun = limit_.exceeded_by(last_.wake.tick, last_.wake.missed);
+    const bool overrun = limit_.exceeded_by(last_.wake.missed);
     window_.take_lateness_us(ClockType::to_us(last_.wake.lateness));
     window_.take_missed(last_.wake.missed);
     const Received<Time> received = bus.receive(frames_per_tick_);
@@ -68,11 +70,14 @@ class ClockTicks {
 
   void done() {
     const Time end = clock_->now();
-    last_.execution = end - begin_;
+    const Time passed = since(end_, end);
+    run_ = passed < 0 || passed > greatest - run_ ? greatest : run_ + passed;
+    end_ = end;
+    last_.execution = since(begin_, end);
     window_.take_execution_us(ClockType::to_us(last_.execution));
     // Frames from before the loop began say nothing about its latency.
-    if (last_.received > 0 && oldest_ - start_ >= 0) {
-      last_.latency = end - oldest_;
+    if (last_.received > 0 && is_within_run(since(oldest_, end))) {
+      last_.latency = since(oldest_, end);
       window_.take_latency_us(ClockType::to_us(*last_.latency));
     }
   }
@@ -80,12 +85,22 @@ class ClockTicks {
   [[nodiscard]] const TickMeasurement<Time>& last() const { return last_; }
 
  private:
+  static constexpr Time greatest = std::numeric_limits<Time>::max();
+
+  // Time wraps, and so does its difference; on signed integers that is undefined.
+  static constexpr Time since(Time earlier, Time later) {
+    using Bits = std::make_unsigned_t<Time>;
+    return static_cast<Time>(static_cast<Bits>(later) - static_cast<Bits>(earlier));
+  }
+  [[nodiscard]] bool is_within_run(Time age) const { return age >= 0 && age <= run_; }
+
   ClockType* clock_;
   std::uint32_t frames_per_tick_;
   OverrunLimit limit_;
   TimingWindow window_;
   bool begun_ = false;
-  Time start_ = 0;  // when the first tick was waited for
+  Time end_ = 0;  // of the last tick
+  Time run_ = 0;  // since the first tick was waited for; stays at the greatest
   Time begin_ = 0;
   Time oldest_ = 0;
   TickMeasurement<Time> last_;

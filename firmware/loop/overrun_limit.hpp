@@ -18,13 +18,13 @@ class OverrunLimit {
 
   explicit constexpr OverrunLimit(std::uint32_t limit) : limit_(limit) {}
 
-  // Once a wake-up: it is tick `tick`, and the `missed` ticks before it were skipped. True while more than
-  // the limit were missed within the window.
-  bool exceeded_by(std::uint32_t tick, std::uint32_t missed) {
+  // Once a wake-up: the `missed` ticks before it were skipped. True while more than the limit were missed
+  // within the window.
+  bool exceeded_by(std::uint32_t missed) {
     for (std::uint32_t back = std::min(missed, window_ticks); back > 0; --back) {
-      count(tick - back, true);
+      count(true);
     }
-    count(tick, false);
+    count(false);
     std::uint32_t total = 0;
     for (const std::uint8_t in_block : missed_) {
       total += in_block;
@@ -36,18 +36,19 @@ class OverrunLimit {
   static constexpr std::uint32_t block_ticks = 100;
   static constexpr std::uint32_t blocks = window_ticks / block_ticks;
 
-  void count(std::uint32_t tick, bool was_missed) {
-    const std::uint32_t block = tick / block_ticks;
-    for (std::uint32_t passed = std::min(block - block_, blocks); passed > 0; --passed) {
-      missed_[(block - passed + 1) % blocks] = 0;
+  // Every tick once, in order: no number of a tick is needed, and none wraps.
+  void count(bool was_missed) {
+    if (++in_block_ > block_ticks) {
+      in_block_ = 1;
+      block_ = (block_ + 1) % blocks;
+      missed_[block_] = 0;
     }
-    block_ = block;
-    std::uint8_t& missed = missed_[block % blocks];
-    missed = static_cast<std::uint8_t>(missed + (was_missed ? 1 : 0));
+    missed_[block_] = static_cast<std::uint8_t>(missed_[block_] + (was_missed ? 1 : 0));
   }
 
   std::uint32_t limit_;
-  std::uint32_t block_ = 0;  // of the present tick
+  std::uint32_t block_ = 0;     // of the present tick
+  std::uint32_t in_block_ = 0;  // ticks counted in it
   std::array<std::uint8_t, blocks> missed_{};
 };
 

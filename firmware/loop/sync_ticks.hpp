@@ -94,7 +94,7 @@ class SyncTicks {
     }
     answers_sync_ = false;
     told_overdue_ = told_overdue_ || overdue_;
-    const core::Fault fault = overdue_ ? core::Fault::sync_lost : core::Fault::none;
+    const core::Fault fault = overdue_ ? core::Fault::sync_lost : core::Fault::bus_off;
     overdue_ = false;
     return Tick{.number = tick_, .frames = {}, .port_fault = fault};
   }

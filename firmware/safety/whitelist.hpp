@@ -27,7 +27,8 @@ template <can::DriveProtocol Drives>
   if (in_table) {
     return listed;
   }
-  return std::find(Drives::sends.begin(), Drives::sends.end(), frame.id) != Drives::sends.end();
+  return frame.length <= frame.data.size() &&
+         std::find(Drives::sends.begin(), Drives::sends.end(), frame.id) != Drives::sends.end();
 }
 
 }  // namespace striker::safety

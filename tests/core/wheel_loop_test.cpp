@@ -48,6 +48,33 @@ TEST(WheelLoop, NeverExceedsTheTorqueLimit) {
   }
 }
 
+// At the ends of everything, for robots up to the greatest that is accepted (UBSan watches), and one beyond.
+TEST(WheelLoop, WhatIsAcceptedStaysWithin32Bits) {
+  for (const RobotDescription& description : {forward, defender, goalkeeper,
+                                              RobotDescription{.body_mass_g = 20'000,
+                                              .wheel_mass_g = 500,
+                                              .wheel_radius_um = 100'000,
+                                              .torque_limit_mNm = 2'000,
+                                              .top_rim_speed_mm_s = 2'500}}) {
+    const RobotProfile any = profile_of(description);
+    ASSERT_TRUE(loops_fit(any));
+    WheelLoop loop;
+    for (const std::int32_t set_point : {any.top_rim_speed_mm_s, -any.top_rim_speed_mm_s}) {
+      for (const std::int32_t measured : {-8000, 0, 8000}) {
+        for (int tick = 0; tick < 2000; ++tick) {
+          const std::int32_t torque = loop.step(any, set_point, measured);
+          ASSERT_LE(std::abs(torque), any.torque_limit_mNm);
+        }
+      }
+    }
+  }
+  EXPECT_FALSE(loops_fit(profile_of({.body_mass_g = 100'000,
+                                     .wheel_mass_g = 500,
+                                     .wheel_radius_um = 165'000,
+                                     .torque_limit_mNm = 2'000,
+                                     .top_rim_speed_mm_s = 2'500})));
+}
+
 TEST(WheelLoop, RemovesASteadyLoad) {
   Rig rig;
   rig.run(1000, 2000, 60.0);

@@ -66,6 +66,18 @@ TEST_F(Lockstep, AnOverdueSyncIsOneFaultWithoutAnEndOfTick) {
   EXPECT_FALSE(loop_.turn());
 }
 
+TEST_F(Lockstep, ABusThatGoesOffBetweenTwoSyncsIsAFaultAtOnce) {
+  for (std::uint32_t tick = 0; tick < 260; ++tick) {
+    turn(tick);
+  }
+  bus_.sent.clear();
+  bus_.now = can::BusHealth::bus_off;
+  EXPECT_TRUE(loop_.turn());
+  EXPECT_EQ(loop_.node().controller().fault(), core::Fault::bus_off);
+  EXPECT_FALSE(has_torque(bus_.sent));
+  EXPECT_EQ(ended_tick(), -1);
+}
+
 // What waits for the next Sync is not the port's: a stop that was pressed meanwhile is not lost.
 TEST_F(Lockstep, AStopThatCameBeforeAnOverdueSyncIsTakenWithTheNextOne) {
   for (std::uint32_t tick = 0; tick < 260; ++tick) {

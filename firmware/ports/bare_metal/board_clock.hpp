@@ -2,6 +2,7 @@
 // The board's timer as the loop's clock: microseconds in 32 bits, which wrap after 71 minutes.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "firmware/core/tick.hpp"
@@ -22,9 +23,10 @@ class BoardClock {
     const std::uint32_t now_tick = ticks();
     const std::uint32_t missed = now_tick - tick_ - 1;
     tick_ = now_tick;
-    return {.tick = tick_,
-            .missed = missed,
-            .lateness = static_cast<Time>(missed) * core::tick_us + within_tick()};
+    return {
+        .tick = tick_,
+        .missed = missed,
+        .lateness = static_cast<Time>(std::min(missed, greatest_late_ticks)) * core::tick_us + within_tick()};
   }
 
   // A tick that begins between the two readings would put the time a tick back: then they are read again.
@@ -33,7 +35,8 @@ class BoardClock {
       const std::uint32_t tick = ticks();
       const Time us = within_tick();
       if (ticks() == tick) {
-        return static_cast<Time>(tick * static_cast<std::uint32_t>(core::tick_us)) + us;
+        return static_cast<Time>(tick * static_cast<std::uint32_t>(core::tick_us) +
+                                 static_cast<std::uint32_t>(us));
       }
     }
   }
@@ -41,6 +44,9 @@ class BoardClock {
   [[nodiscard]] static std::int32_t to_us(Time us) { return us; }
 
  private:
+  static constexpr std::uint32_t greatest_late_ticks =
+      1'000'000;  // in us, with `within_tick`, 32 bits hold it
+
   static Time within_tick() { return static_cast<Time>(since_tick_us()); }
 
   std::uint32_t tick_ = 0;

@@ -30,7 +30,7 @@ class RealTimeSocket {
   // set it may be off by as much.
   loop::Received<std::int64_t> receive(std::size_t most);
 
-  [[nodiscard]] can::BusHealth health() const { return gone_ ? can::BusHealth::bus_off : socket_.health(); }
+  [[nodiscard]] can::BusHealth health() { return gone_ ? can::BusHealth::bus_off : socket_.health(); }
 
  private:
   struct Slot {

@@ -34,7 +34,7 @@ class LockstepBus {
     }
     return taken;
   }
-  [[nodiscard]] can::BusHealth health() const { return socket_->health(); }
+  [[nodiscard]] can::BusHealth health() { return socket_->health(); }
 
  private:
   host::CanSocket* socket_;
@@ -60,7 +60,8 @@ LockstepReport run_lockstep(host::CanSocket& socket, std::chrono::milliseconds s
     }
     if (Clock::now() - last_sync > sync_timeout) {
       ticks.overdue();
-      loop.turn();
+      loop.turn();  // the fault, or a Sync that came just now
+      last_sync = ticks.answered_sync() ? Clock::now() : last_sync;
     }
     announcer.announce(loop.node().controller().fault());
     socket.wait(wait_limit);
