@@ -26,10 +26,10 @@ check() {
   shift 2
   mkdir "$work/$name"
   local file object
-  for file in $(find "$source_dir"/firmware/{policy,core,can,safety,loop} -name '*.cpp' 2>/dev/null); do
+  while IFS= read -r file; do
     object=$work/$name/$(basename "$file" .cpp).o
     "$@" "${flags[@]}" -c "$file" -o "$object"
-  done
+  done < <(find "$source_dir"/firmware/{policy,core,can,safety,loop} -name '*.cpp')
   local found
   found=$("$nm" -u "$work/$name"/*.o | awk '/ U /{print $2}' | sort -u | grep -E "$forbidden" || true)
   if [[ -n $found ]]; then
