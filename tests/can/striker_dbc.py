@@ -13,6 +13,16 @@ def identifier(message):
     return MATRIX.frame_by_name(message).arbitration_id.id
 
 
+def messages():
+    """The names of all messages."""
+    return [frame.name for frame in MATRIX.frames]
+
+
+def length(message):
+    """Bytes of data."""
+    return MATRIX.frame_by_name(message).size
+
+
 def sent_by(node):
     """The identifiers of the messages that a node sends."""
     return {frame.arbitration_id.id for frame in MATRIX.frames if node in frame.transmitters}

@@ -14,14 +14,17 @@ import tempfile
 import time
 import unittest
 
-from message_table import IDENTIFIERS, LENGTHS, value_of
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "can"))
+
+import striker_dbc  # noqa: E402
 
 BIN = sys.argv.pop(1)
 
 FAULT_REPORT, MODE_COMMAND, WHEEL_COMMAND, WHEEL_STATE, STATUS = (
-    IDENTIFIERS[name] for name in ("FaultReport", "ModeCommand", "WheelCommand", "WheelState", "Status"))
-STANDBY, ACTIVE = (value_of("Status", "state", name) for name in ("standby", "active"))
-SYNC_LOST = value_of("FaultReport", "code", "sync_lost")
+    striker_dbc.identifier(name) for name in ("FaultReport", "ModeCommand", "WheelCommand", "WheelState", "Status"))
+STANDBY, ACTIVE = (striker_dbc.value("Status", "state", name) for name in ("standby", "active"))
+SYNC_LOST = striker_dbc.value("FaultReport", "code", "sync_lost")
+ERROR_FLAG, ERROR_BUS_OFF = 0x20000000, 0x40  # linux/can.h, linux/can/error.h
 
 
 def program(name, *arguments, **options):
@@ -177,7 +180,7 @@ class Vcan(unittest.TestCase):
             lines = log.read().splitlines()
         seen = {line.split()[2][:3] for line in lines}
         rare = {"EmergencyStop", "FaultReport"}
-        self.assertLessEqual({f"{IDENTIFIERS[name]:03X}" for name in set(IDENTIFIERS) - rare}, seen)
+        self.assertLessEqual({f"{striker_dbc.identifier(name):03X}" for name in set(striker_dbc.messages()) - rare}, seen)
         with open(self.file("a.log"), encoding="ascii") as log:
             logged = [line.split()[2] for line in log]
         shown = [line.split()[2] for line in lines]
@@ -187,8 +190,8 @@ class Vcan(unittest.TestCase):
         process = firmware("realtime")
         with listening() as bus:
             for name in ("EmergencyStop", "ModeCommand", "WheelState", "VisionPose", "VisionBall"):
-                send(bus, IDENTIFIERS[name], bytes(LENGTHS[name]))
-                send(bus, IDENTIFIERS[name], b"\x01")
+                send(bus, striker_dbc.identifier(name), bytes(striker_dbc.length(name)))
+                send(bus, striker_dbc.identifier(name), b"\x01")
             time.sleep(0.3)
         status = run("striker-command", "--can", "vcan0", "status")
         stop(process)
@@ -227,6 +230,18 @@ class Vcan(unittest.TestCase):
                 state = payload[1] >> 4
             if identifier == WHEEL_COMMAND and moves(payload):
                 self.assertIn(state, (STANDBY, ACTIVE), f"moved in fault at {stamp} ms: {told}")
+
+    # As with a controller that recovers by itself: the next frame on the bus is right behind the error.
+    def test_a_bus_off_that_is_soon_over_is_a_fault(self):
+        for _ in range(5):
+            process = firmware("realtime")
+            time.sleep(0.5)
+            with listening() as bus:
+                send(bus, ERROR_FLAG | ERROR_BUS_OFF, bytes(8))
+                send(bus, WHEEL_STATE, bytes(striker_dbc.length("WheelState")))
+            time.sleep(0.3)
+            _, told = stop(process)
+            self.assertIn("bus_off", told)
 
     def test_the_loop_calls_the_kernel_for_nothing_but_what_is_listed(self):
         trace = self.file("trace")
