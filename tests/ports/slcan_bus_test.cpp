@@ -91,7 +91,7 @@ TEST(SlcanBus, SendsAndReceivesFramesOneByOne) {
 }
 
 TEST(SlcanBus, AStoppedTransmitterTakesNoLongerThanTwoTicks) {
-  for (const std::size_t room : {0, 1, 4, 9}) {
+  for (const std::size_t room : {0U, 1U, 4U, 9U}) {
     start_can();
     port.room = room;
     EXPECT_FALSE(try_send_can(frame));

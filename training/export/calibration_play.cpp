@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t calibration_seed = 1;
 
 template <Environment E>
-std::vector<RawState> states_met(E& env, GreedyRule greedy, std::size_t actions, int first, int count) {
+std::vector<RawState> states_met(E& env, GreedyRule& greedy, std::size_t actions, int first, int count) {
   std::vector<RawState> states;
   const auto collect = [&states](const E& seen) {
     if (!seen.success()) {
@@ -42,9 +42,9 @@ std::vector<RawState> states_met(E& env, GreedyRule greedy, std::size_t actions,
 std::vector<RawState> calibration_play(const Parameters& parameters, TaskConfig task, int first, int count) {
   task.physics = Physics::full;
   AnyEnvironment environment = make_environment(task);
-  return std::visit(
-      [&](auto& env) { return states_met(env, GreedyRule(parameters), task.actions.size(), first, count); },
-      environment);
+  GreedyRule greedy(parameters);
+  return std::visit([&](auto& env) { return states_met(env, greedy, task.actions.size(), first, count); },
+                    environment);
 }
 
 }  // namespace striker::training

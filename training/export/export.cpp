@@ -56,7 +56,7 @@ Export export_model(const Model& model, const TaskConfig& task, WeightType weigh
 }
 
 std::string policy_name_of(const std::filesystem::path& file) {
-  const std::string name = file.stem().string();
+  std::string name = file.stem().string();
   const bool begins = !name.empty() && (std::islower(static_cast<unsigned char>(name.front())) != 0);
   const bool goes_on = std::all_of(name.begin(), name.end(), [](unsigned char letter) {
     return std::islower(letter) != 0 || std::isdigit(letter) != 0 || letter == '_';
