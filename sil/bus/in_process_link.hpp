@@ -39,6 +39,7 @@ class MemoryBus {
     return frames.size();
   }
   [[nodiscard]] can::BusHealth health() const { return can::BusHealth::active; }
+  [[nodiscard]] std::uint32_t lost() const { return 0; }
 
  private:
   std::vector<can::Frame> waiting_;
