@@ -103,7 +103,6 @@ TEST(Observer, SeesWhatTheCameraSeesWithoutItsRounding) {
     can::VisionPose pose;
     can::VisionBall ball;
     ASSERT_EQ(can::receive(diary.pictures.at(picture), pose), can::Verdict::accepted);
-    any = {};
     ASSERT_EQ(can::receive(diary.pictures.at(picture + 1), ball), can::Verdict::accepted);
     const std::size_t before = boot_ticks + i - 1;
     ASSERT_NEAR(pose.x_quarter_mm * 0.25e-3, diary.robots[before].pose.x_m, 0.126e-3) << i;
