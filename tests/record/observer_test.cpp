@@ -14,7 +14,7 @@
 namespace striker::sil {
 namespace {
 
-constexpr std::uint32_t boot_ticks = 50;
+constexpr std::uint32_t boot_ticks = kick_boot_ticks;
 constexpr std::uint32_t lead_ticks = 100;  // until decision 0
 constexpr std::uint32_t episode_ticks = 2200;
 const KickPlan plan{.pose = PoseMode::anywhere, .seed = 11, .first_episode = 4, .episodes = 2};
@@ -99,7 +99,7 @@ TEST(Observer, SeesTheRobotHeldAndTheBallLedUntilDecision0) {
 TEST(Observer, SeesWhatTheCameraSeesWithoutItsRounding) {
   const Diary diary = watch();
   for (std::uint32_t i = lead_ticks + 50; i < episode_ticks; i += 50) {
-    const std::size_t picture = std::size_t{2} * (i / 50);
+    const std::size_t picture = std::size_t{2} * ((boot_ticks + i) / 50);
     can::VisionPose pose;
     can::VisionBall ball;
     ASSERT_EQ(can::receive(diary.pictures.at(picture), pose), can::Verdict::accepted);
