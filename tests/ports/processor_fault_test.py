@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Breaks a board's controller while it drives, on QEMU: an undefined instruction, a stack that overflows, a hang, a
-write to flash, a call into RAM. Each has to end in the fault's record with the right cause, no torque may go out from
+"""Breaks a board's controller while it drives, on QEMU: an undefined instruction, a stack that overflows or has
+been full, a hang, a write to flash, a call into RAM. Each has to end in the fault's record with the right cause, no torque may go out from
 there on, and the next run has to tell it. An image that breaks at every start has to stop after the resets that
 fault_record.hpp states."""
 
@@ -19,6 +19,7 @@ import time
 
 import controller_image_test
 import gdb_remote
+import image_test
 import qemu_image
 import striker_dbc
 
@@ -38,11 +39,11 @@ WRITE_TO_FLASH = {"M": b"\x01\x20\x00\x07\x00\x60",         # movs r0, #1; lsls 
 CALL_INTO_RAM = b"\x68\x46\x01\x30\x00\x47"                 # mov r0, sp; adds r0, #1; bx r0
 
 # Exception's number and status (CFSR; IFSR and DFSR), in the bits that matter, by what a core has.
-ARMV6M = {"undefined": (3, 0, 0), "overflow": (3, 0, 0)}
-ARMV7M = {"undefined": (3, 0xFFFFFFFF, 1 << 16), "overflow": (3, 0x12, 0x12), "hang": (2, 0, 0),
+ARMV6M = {"undefined": (3, 0, 0), "overflow": (3, 0, 0), "full": (0, 0, 0)}
+ARMV7M = {"undefined": (3, 0xFFFFFFFF, 1 << 16), "overflow": (3, 0x12, 0x12), "full": (0, 0, 0), "hang": (2, 0, 0),
           "flash": (3, 0xFF, 0x82), "ram": (3, 0xFF, 0x01)}
 ARMV8M = {**ARMV7M, "overflow": (3, 0xFFFFFFFF, 1 << 20)}
-ARMV7R = {"undefined": (1, 0, 0), "overflow": (4, 0x80F, 0x80D), "flash": (4, 0x80F, 0x80D), "ram": (3, 0xF, 0xD)}
+ARMV7R = {"undefined": (1, 0, 0), "overflow": (4, 0x80F, 0x80D), "full": (0, 0, 0), "flash": (4, 0x80F, 0x80D), "ram": (3, 0xF, 0xD)}
 EXPECTED = {"cortex-m0plus": ARMV6M, "cortex-m3": ARMV7M, "cortex-m4": ARMV7M, "cortex-m7": ARMV7M,
             "cortex-m33": ARMV8M, "cortex-m55": ARMV8M, "cortex-r5": ARMV7R}
 
@@ -186,7 +187,7 @@ def drive(machine, ticks):
 
 
 def code_for(case, cpu):
-    return {"undefined": UDF, "overflow": PUSH_FOR_EVER, "hang": HANG, "flash": WRITE_TO_FLASH["R" if "-r" in cpu else "M"],
+    return {"undefined": UDF, "overflow": PUSH_FOR_EVER, "full": b"", "hang": HANG, "flash": WRITE_TO_FLASH["R" if "-r" in cpu else "M"],
             "ram": CALL_INTO_RAM}[case]
 
 
@@ -195,7 +196,7 @@ def check_record(case, cpu, debugger, names, at):
     wanted, mask, bits = EXPECTED[cpu][case]
     told = f"cause {cause}, exception {exception}, status {status:#x}, pc {pc:#x}, resets {resets}, untold {untold}"
     expect(magic == MAGIC and resets == 1 and untold == 0, f"a whole record, told once: {told}")
-    expect(cause == {"overflow": STACK_OVERFLOW, "hang": WATCHDOG}.get(case, EXCEPTION), f"the cause: {told}")
+    expect(cause == {"overflow": STACK_OVERFLOW, "full": STACK_OVERFLOW, "hang": WATCHDOG}.get(case, EXCEPTION), f"the cause: {told}")
     expect(exception == wanted and status & mask == bits, f"exception {wanted} with status {bits:#x}: {told}")
     # A stack that has overflown on a Cortex-M has no frame to tell it; from RAM, the place is the RAM's.
     if case in ("undefined", "hang", "flash"):
@@ -212,15 +213,16 @@ def break_while_driving(board, image, case, ticks):
         stack.callback(debugger.close)
         debugger.run_to(names["striker::bare_metal::receive_can"])
         at, code = debugger.pc(), code_for(case, cpu)
-        original = debugger.read(at, len(code))
+        original = debugger.read(at, len(code)) if code else b""
         machine.drain()
         began = debugger.word(names["striker::bare_metal::tick_count"]) if case == "hang" else 0
-        debugger.write(at, code)
+        debugger.write(names["stack_bottom"] if case == "full" else at, code or bytes(4))
         debugger.run_to(names["striker::bare_metal::end_by_fault"])
         if case == "hang":
             passed = debugger.word(names["striker::bare_metal::tick_count"]) - began
             expect(10 <= passed <= 50, f"the watchdog bit after 10 to 50 ms: {passed}")
-        debugger.write(at, original)
+        if original:
+            debugger.write(at, original)
         debugger.go()
         if board["qemu"]["power_on"]:  # it stops for good
             time.sleep(0.5)
@@ -274,14 +276,18 @@ def main():
     parser.add_argument("--recording", required=True)
     parser.add_argument("--board", required=True)
     parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
-    parser.add_argument("--build-dir", required=True, help="the board's, built")
+    parser.add_argument("--policy", required=True)
+    parser.add_argument("--build-dir", required=True)
+    parser.add_argument("--built-for", help="the folder of a board that stands in for it")
     parser.add_argument("--case", help="only this one")
     arguments = parser.parse_args()
     try:
         board = qemu_image.read_board(arguments.boards, arguments.board)
     except qemu_image.ImageError as error:
         sys.exit(f"processor_fault_test: {error}")
-    image = os.path.join(arguments.build_dir, "bin", "striker-controller.elf")
+    built_for = {"name": arguments.built_for or arguments.board}
+    image_test.build(built_for, arguments.policy, arguments.build_dir, ("striker-controller",))
+    image = image_test.image(arguments.build_dir, "controller")
     ticks = controller_image_test.recorded_ticks(arguments.recording)
     cases = {case: (lambda case=case: break_while_driving(board, image, case, ticks)) for case in EXPECTED[board["cpu"]]}
     cases["every start"] = lambda: break_at_every_start(board, image)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock's ticks, of which the first tells what ended the run before.
+// The clock's ticks on a board: the first tells what ended the run before, and a step whose stack was full
+// sends nothing.
 #pragma once
 
 #include <optional>
@@ -9,6 +10,8 @@
 #include "firmware/loop/clock_ticks.hpp"
 #include "firmware/loop/tick.hpp"
 #include "firmware/ports/bare_metal/board_clock.hpp"
+#include "firmware/ports/bare_metal/fault_record.hpp"
+#include "firmware/ports/bare_metal/memory.hpp"
 
 namespace striker::bare_metal {
 
@@ -29,7 +32,12 @@ class BoardTicks {
     return tick;
   }
 
-  void end(const can::FrameList& sent) { ticks_.end(sent); }
+  void end(const can::FrameList& sent) {
+    if (!stack_is_intact()) {
+      end_by_fault({.cause = FaultCause::stack_overflow});
+    }
+    ticks_.end(sent);
+  }
   void done() { ticks_.done(); }
 
  private:

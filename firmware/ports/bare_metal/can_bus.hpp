@@ -39,8 +39,8 @@
 //
 // Interrupts and threads. All four are called from the main loop alone, never from an interrupt. A driver
 // that polls needs no interrupt. One that takes some protects what it shares with them, keeps them below 5
-// us, brings a vector table of its own (cortex_m/startup.cpp has the processor's fifteen exceptions), and
-// adds their stack to what stack_usage.py finds: that knows tick_interrupt alone.
+// us, brings a start-up file of its own (in cortex_m/startup.cpp every interrupt but the tick ends in a fault),
+// and adds their stack to what stack_usage.py finds: that knows tick_interrupt alone.
 #pragma once
 
 #include "firmware/can/bus_health.hpp"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/ports/bare_metal/fault_record.hpp"
 
-#include <initializer_list>
+#include <array>
+#include <bit>
+#include <span>
 
 #include "firmware/ports/bare_metal/reset.hpp"
 #include "firmware/ports/bare_metal/watchdog.hpp"
@@ -17,12 +19,11 @@ namespace {
 
 constexpr std::uint32_t magic = 0x464C5452;
 
-// FNV-1a, over words: RAM that has lost a bit, or never had a record, does not fit.
-std::uint32_t check_word(const KeptFault& kept) {
-  const FaultRecord& record = kept.record;
+// FNV-1a, over words: RAM that has lost a bit, or never had a record, does not fit. Compiled once: four call it.
+[[gnu::noinline]] std::uint32_t check_word(const KeptFault& kept) {
+  const auto words = std::bit_cast<std::array<std::uint32_t, sizeof kept / sizeof kept.check>>(kept);
   std::uint32_t hash = 0x811C9DC5;
-  for (const std::uint32_t word : {kept.magic, static_cast<std::uint32_t>(record.cause), record.exception,
-                                   record.status, record.pc, record.resets, kept.untold}) {
+  for (const std::uint32_t word : std::span(words).first<words.size() - 1>()) {
     hash = (hash ^ word) * 0x01000193;
   }
   return hash;

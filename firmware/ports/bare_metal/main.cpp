@@ -6,7 +6,6 @@
 #include "firmware/ports/bare_metal/board_clock.hpp"
 #include "firmware/ports/bare_metal/board_ticks.hpp"
 #include "firmware/ports/bare_metal/fault_record.hpp"
-#include "firmware/ports/bare_metal/memory.hpp"
 #include "firmware/ports/bare_metal/watchdog.hpp"
 
 namespace {
@@ -36,11 +35,7 @@ int main() {
   start_ticks();
   start_watchdog();
   for (;;) {
-    const bool completed = tick_loop.turn();
-    if (!stack_is_intact()) {
-      end_by_fault({.cause = FaultCause::stack_overflow});
-    }
-    if (completed) {
+    if (tick_loop.turn()) {
       feed_watchdog();
     }
   }

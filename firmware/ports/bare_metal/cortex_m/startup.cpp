@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reset, the vector table and what every exception ends in (Armv6-M to Armv8.1-M Architecture Reference
-// Manuals, "Exception model"). All of them are faults but the tick, since no interrupt is enabled; a driver that
-// takes one defines its vector's function, as systick_clock.cpp does `tick_interrupt`.
+// Manuals, "Exception model"). All are faults but the tick, as no
+// interrupt is ever enabled: a driver that takes one brings a start-up file of its own.
 #include <array>
 #include <cstdint>
 
