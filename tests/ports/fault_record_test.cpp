@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "firmware/ports/bare_metal/reset.hpp"
 #include "firmware/ports/bare_metal/watchdog.hpp"
@@ -44,7 +46,7 @@ constexpr FaultRecord broken = {
 class FaultRecordTest : public testing::Test {
  protected:
   FaultRecordTest() {
-    std::memset(&kept_fault, 0xA5, sizeof kept_fault);
+    kept_fault = {.magic = 0xA5A5A5A5, .record = {}, .untold = 0xA5A5A5A5, .check = 0xA5A5A5A5};
     watchdog_reset = false;
   }
 
