@@ -52,6 +52,10 @@ class Failure(Exception):
     """Something did not hold."""
 
 
+class NotDriven(Failure):
+    """The controller faulted before the test did anything: a host that stalls takes the wheel states away."""
+
+
 def expect(holds, text):
     if not holds:
         raise Failure(text)
@@ -98,9 +102,12 @@ class Control:
                 expect("error" not in answer, f"QEMU: {answer}")
                 return
 
-    def count(self, event, quiet_s):
-        """How often it has told an event, once it has told none for a while."""
-        while self._line(quiet_s) is not None:
+    def count(self, event, wanted, quiet_s=0):
+        """How often it has told an event: at least so often within 30 s, and as often as it comes without a pause."""
+        end = time.monotonic() + 30
+        while self.events.count(event) < wanted and time.monotonic() < end:
+            self._line(1)
+        while quiet_s and self._line(quiet_s) is not None and self.events.count(event) <= wanted:
             pass
         return self.events.count(event)
 
@@ -126,7 +133,7 @@ class Machine:
         paths = {name: os.path.join(folder, name) for name in ("serial", "control", "debug")}
         line = qemu_image.machine(board, image) + [
             "-serial", f"unix:{paths['serial']},server=on,wait=on", "-qmp", f"unix:{paths['control']},server=on,wait=off",
-            "-gdb", f"unix:{paths['debug']},server=on,wait=off"]
+            "-gdb", f"unix:{paths['debug']},server=on,wait=off", "-S"]  # until all events can be heard
         process = stack.enter_context(subprocess.Popen(line, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
         stack.callback(process.kill)
         self._serial = stack.enter_context(controller_image_test.connect(paths["serial"]))
@@ -135,7 +142,7 @@ class Machine:
         if processor := board["qemu"]["power_on"]:
             self.control.ask("qom-set", path=processor, property="start-powered-off", value=False)
             self.control.ask("system_reset")
-            self.control.ask("cont")
+        self.control.ask("cont")
         self._debug_path = paths["debug"]
         self._place = (2, 5) if board["qemu"]["power_on"] else (1, 1)
 
@@ -183,7 +190,7 @@ def drive(machine, ticks):
         driven += any(map(has_torque, machine.tick(frames)))
         if driven == 5:
             return ticks[at + 1:]
-    raise Failure("the recorded run did not drive the wheels")
+    raise NotDriven("the recorded run did not drive the wheels")
 
 
 def code_for(case, cpu):
@@ -205,6 +212,13 @@ def check_record(case, cpu, debugger, names, at):
 
 
 def break_while_driving(board, image, case, ticks):
+    for _ in range(2):
+        with contextlib.suppress(NotDriven):
+            return break_once(board, image, case, ticks)
+    return break_once(board, image, case, ticks)
+
+
+def break_once(board, image, case, ticks):
     cpu, names = board["cpu"], symbols(image)
     with contextlib.ExitStack() as stack:
         machine = Machine(board, image, stack)
@@ -247,8 +261,8 @@ def break_at_every_start(board, image):
     with contextlib.ExitStack() as stack:
         folder = stack.enter_context(tempfile.TemporaryDirectory())
         machine = Machine(board, patched(image, {names["main"]: UDF}, folder), stack)
-        resets = machine.control.count("RESET", quiet_s=2)
-        wanted = 1 if board["qemu"]["power_on"] else MOST_RESETS  # of which QEMU's own switching on is one
+        wanted = 1 if board["qemu"]["power_on"] else MOST_RESETS  # the one is QEMU's own switching on
+        resets = machine.control.count("RESET", wanted, quiet_s=2)
         expect(resets == wanted, f"{wanted} resets, then silence: {resets}")
         expect(not machine.frames(0), "nothing was sent")
         debugger = machine.attach()
@@ -265,10 +279,9 @@ def hang_in_the_handler(board, image):
         folder = stack.enter_context(tempfile.TemporaryDirectory())
         hanging = {names["take_exception"]: HANG, names["striker::bare_metal::receive_can"]: HANG}
         machine = Machine(board, patched(image, hanging, folder), stack)
-        time.sleep(3)
-        resets = machine.control.count("WATCHDOG", quiet_s=0)
-        expect(resets > 0, "the watchdog resets by itself")
-    return f"{resets} resets within 3 s"
+        resets = machine.control.count("WATCHDOG", wanted=2)
+        expect(resets >= 2, "the watchdog resets by itself")
+    return f"{resets} resets"
 
 
 def main():

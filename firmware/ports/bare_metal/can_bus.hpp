@@ -49,7 +49,8 @@
 namespace striker::bare_metal {
 
 // The first call of main: clocks, pins, bit timing, filters; then the controller joins the bus, which
-// takes 11 recessive bits. Does not wait for a bus that is not there.
+// takes 11 recessive bits. Does not wait for a bus that is not there. The processor may have been reset in
+// the middle of a transmission: frames that the controller still holds from before are dropped.
 void start_can();
 
 // The oldest frame received. False, with `frame` as it was, if nothing waits. Never waits; a few
