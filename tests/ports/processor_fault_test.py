@@ -131,7 +131,9 @@ class Machine:
     def __init__(self, board, image, stack):
         folder = stack.enter_context(tempfile.TemporaryDirectory())
         paths = {name: os.path.join(folder, name) for name in ("serial", "control", "debug")}
-        line = qemu_image.machine(board, image) + [
+        line = qemu_image.machine(board, image)
+        line[line.index("shift=0")] = "shift=2"  # 250,000 instructions a tick are enough
+        line += [
             "-serial", f"unix:{paths['serial']},server=on,wait=on", "-qmp", f"unix:{paths['control']},server=on,wait=off",
             "-gdb", f"unix:{paths['debug']},server=on,wait=off", "-S"]  # until all events can be heard
         process = stack.enter_context(subprocess.Popen(line, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL))

@@ -2,7 +2,8 @@
 // What memory may be used for, after the map that every Cortex-M has (Architecture Reference Manuals, "System
 // address map"): code below 0x20000000 is read-only, SRAM from there to 0x3FFFFFFF is not executed, and the 4 KB
 // below the stack are not touched at all, which is more than any frame steps over. On Armv8-M the stack's limit
-// register does the last. Everything else stays as the map has it.
+// register does the last. RAM below 0x20000000, where a chip has some, and flash that programs itself are out of
+// reach with that. Everything else stays as the map has it.
 //
 // A core without an MPU (a Cortex-M0 has none, others may lack it) keeps the map; an overflow is found by the
 // painted words, or by the bus, which has nothing below RAM. The MPU is off in NMI and HardFault, where every fault ends.
