@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Breaks a board's controller while it drives, on QEMU: an undefined instruction, a stack that overflows or has
-been full, a hang, a write to flash, a call into RAM. Each has to end in the fault's record with the right cause, no torque may go out from
-there on, and the next run has to tell it. An image that breaks at every start has to stop after the resets that
-fault_record.hpp states."""
+"""Breaks a board's controller while it drives, on QEMU: an undefined instruction, a stack that overflows or has been
+full, a hang, a write to flash, a call into RAM, a touch of what lies below the stack. Each has to end in the fault's
+record with the right cause, no torque may go out from there on, and the next run has to tell it. An image that breaks
+at every start has to stop after the resets that fault_record.hpp states."""
 
 import argparse
 import contextlib
@@ -36,14 +36,18 @@ HANG = b"\xfe\xe7"
 PUSH_FOR_EVER = b"\xf0\xb5\xfd\xe7"                         # push {r4-r7, lr}; b .-2
 WRITE_TO_FLASH = {"M": b"\x01\x20\x00\x07\x00\x60",         # movs r0, #1; lsls r0, #28; str r0, [r0]
                   "R": b"\x03\x20\xc0\x43\x00\x04\x00\x60"}  # movs r0, #3; mvns r0, r0; lsls r0, #16; str r0, [r0]
+READ_GUARD = {"M": b"\x01\x20\x40\x07\x04\x38\x00\x68",     # movs r0, #1; lsls r0, #29; subs r0, #4; ldr r0, [r0]
+              "R": b"\x01\x20\xc0\x03\x03\x30\xc0\x43\x00\x68"}  # as above by 0x8003; mvns: 0xFFFF7FFC
 CALL_INTO_RAM = b"\x68\x46\x01\x30\x00\x47"                 # mov r0, sp; adds r0, #1; bx r0
 
 # Exception's number and status (CFSR; IFSR and DFSR), in the bits that matter, by what a core has.
 ARMV6M = {"undefined": (3, 0, 0), "overflow": (3, 0, 0), "full": (0, 0, 0)}
 ARMV7M = {"undefined": (3, 0xFFFFFFFF, 1 << 16), "overflow": (3, 0x12, 0x12), "full": (0, 0, 0), "hang": (2, 0, 0),
-          "flash": (3, 0xFF, 0x82), "ram": (3, 0xFF, 0x01)}
+          "flash": (3, 0xFF, 0x82), "ram": (3, 0xFF, 0x01), "guard": (3, 0xFF, 0x82)}
 ARMV8M = {**ARMV7M, "overflow": (3, 0xFFFFFFFF, 1 << 20)}
-ARMV7R = {"undefined": (1, 0, 0), "overflow": (4, 0x80F, 0x80D), "full": (0, 0, 0), "flash": (4, 0x80F, 0x80D), "ram": (3, 0xF, 0xD)}
+del ARMV8M["guard"]  # its limit is the stack pointer's alone
+ARMV7R = {"undefined": (1, 0, 0), "overflow": (4, 0x80F, 0x80D), "full": (0, 0, 0), "flash": (4, 0x80F, 0x80D),
+          "ram": (3, 0xF, 0xD), "guard": (4, 0x80F, 0x00D)}
 EXPECTED = {"cortex-m0plus": ARMV6M, "cortex-m3": ARMV7M, "cortex-m4": ARMV7M, "cortex-m7": ARMV7M,
             "cortex-m33": ARMV8M, "cortex-m55": ARMV8M, "cortex-r5": ARMV7R}
 
@@ -196,8 +200,9 @@ def drive(machine, ticks):
 
 
 def code_for(case, cpu):
-    return {"undefined": UDF, "overflow": PUSH_FOR_EVER, "full": b"", "hang": HANG, "flash": WRITE_TO_FLASH["R" if "-r" in cpu else "M"],
-            "ram": CALL_INTO_RAM}[case]
+    profile = "R" if "-r" in cpu else "M"
+    return {"undefined": UDF, "overflow": PUSH_FOR_EVER, "full": b"", "hang": HANG, "flash": WRITE_TO_FLASH[profile],
+            "ram": CALL_INTO_RAM, "guard": READ_GUARD[profile]}[case]
 
 
 def check_record(case, cpu, debugger, names, at):
@@ -208,8 +213,8 @@ def check_record(case, cpu, debugger, names, at):
     expect(cause == {"overflow": STACK_OVERFLOW, "full": STACK_OVERFLOW, "hang": WATCHDOG}.get(case, EXCEPTION), f"the cause: {told}")
     expect(exception == wanted and status & mask == bits, f"exception {wanted} with status {bits:#x}: {told}")
     # A stack that has overflown on a Cortex-M has no frame to tell it; from RAM, the place is the RAM's.
-    if case in ("undefined", "hang", "flash"):
-        expect(at <= pc < at + 8, f"the place, {at:#x}: {told}")
+    if case in ("undefined", "hang", "flash", "guard"):
+        expect(at <= pc < at + 10, f"the place, {at:#x}: {told}")
     return told
 
 
@@ -313,7 +318,7 @@ def main():
         if arguments.case in (None, case):
             try:
                 print(f"ok: {board['name']}, {case}: {test()}", flush=True)
-            except (Failure, gdb_remote.DebugError) as error:
+            except (Failure, gdb_remote.DebugError, OSError) as error:
                 good = False
                 print(f"FAILED: {board['name']}, {case}: {error}", flush=True)
     sys.exit(0 if good else 1)
