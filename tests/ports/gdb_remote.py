@@ -52,12 +52,12 @@ class Debugger:
     def go(self):
         self._send("c")
 
-    def wait(self, timeout_s=10):
+    def wait(self, timeout_s=30):
         """Until the processor has stopped, at a breakpoint or as asked."""
         if self._packet(timeout_s) is None:
             raise DebugError(f"the processor did not stop within {timeout_s} s")
 
-    def run_to(self, address, timeout_s=10):
+    def run_to(self, address, timeout_s=30):
         self.ask(f"Z0,{address:x},2")
         self.go()
         self.wait(timeout_s)
