@@ -38,9 +38,11 @@ class MemoryBus {
     sent_.insert(sent_.end(), frames.begin(), frames.end());
     return frames.size();
   }
-  [[nodiscard]] can::BusHealth health() const { return can::BusHealth::active; }
+  [[nodiscard]] can::BusHealth health() const { return health_; }
+  void set_health(can::BusHealth health) { health_ = health; }
 
  private:
+  can::BusHealth health_ = can::BusHealth::active;
   std::vector<can::Frame> waiting_;
   std::size_t taken_ = 0;
   std::vector<can::Frame> sent_;
@@ -54,6 +56,14 @@ class InProcessLink final : public ControllerLink {
   void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
   [[nodiscard]] const auto& controller() const { return loop_.node().controller(); }
+
+  // How the controller's port finds itself on the bus. Frames pass all the same.
+  void set_health(can::BusHealth health) { loop_.bus().set_health(health); }
+
+  // The controller's node as it lies in memory: for faults of it.
+  [[nodiscard]] std::span<std::byte> node_memory() {
+    return std::as_writable_bytes(std::span(const_cast<loop::BuiltInNode*>(&loop_.node()), 1));
+  }
 
  private:
   loop::TickLoop<loop::BuiltInNode, MemoryBus, loop::SyncTicks> loop_{loop::built_in_robot, {}, {}};
