@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packs, protects, checks and unpacks: from a message to a frame and back, driven by the table alone.
 //
-// Receive order: identifier (the caller's dispatch), exact length, CRC, counter, range; then the whole
-// message is taken, or none of it.
+// Receive order: identifier (the caller's dispatch), exact length, CRC, range; then the whole message is taken, or
+// none of it. The order of the frames is MessageReceiver's business (message_receiver.hpp).
 #pragma once
 
 #include <algorithm>
@@ -16,19 +16,13 @@
 
 namespace striker::can {
 
-// What a receive check found: the first that failed, in the order in which they are made.
+// What a receive check found: the first that failed, in the order in which they are made. `wrong_counter`: the
+// frame itself is sound, but repeated, or its message is not to be believed now.
 enum class Verdict : std::uint8_t { accepted, wrong_length, wrong_crc, wrong_counter, out_of_range };
 
 // A sender's E2E counter for one message.
 struct SendCounter {
   std::uint8_t next = 0;
-};
-
-// A receiver's memory of one message's E2E counter. Forget it when the message times out: a sender that comes
-// back may start anywhere.
-struct ReceiveCounter {
-  bool seen = false;
-  std::uint8_t last = 0;
 };
 
 namespace detail {
@@ -75,13 +69,6 @@ constexpr std::uint64_t put_signals(const Message& message, std::index_sequence<
   return (put_signal<Message, i>(message) | ...);
 }
 
-constexpr bool counter_follows(ReceiveCounter& memory, std::uint8_t counter) {
-  const auto advance = static_cast<std::uint8_t>((counter - memory.last) & (counter_modulus - 1));
-  const bool follows = !memory.seen || (advance >= 1 && advance <= greatest_counter_step);
-  memory = {true, counter};
-  return follows;
-}
-
 }  // namespace detail
 
 // Values outside a signal's range are sent as its nearest end.
@@ -89,15 +76,15 @@ template <class Message>
 [[nodiscard]] constexpr Frame pack(const Message& message) {
   constexpr const MessageInfo& info = layout<Message>.info;
   const std::uint64_t payload = detail::put_signals(message, detail::SignalIndices<Message>{});
-  return {info.id, info.length, std::bit_cast<std::array<std::uint8_t, 8>>(payload)};
+  return {.id = info.id, .length = info.length, .data = std::bit_cast<std::array<std::uint8_t, 8>>(payload)};
 }
 
 template <class Message>
 [[nodiscard]] constexpr Frame send(const Message& message, SendCounter& counter) {
-  static_assert(layout<Message>.info.data_id != unprotected,
+  static_assert(layout<Message>.info.data_ids != unprotected,
                 "this message carries no E2E protection: pack it");
   Frame frame = pack(message);
-  protect(frame, layout<Message>.info.data_id, counter.next);
+  protect(frame, layout<Message>.info.data_ids, counter.next);
   counter.next = static_cast<std::uint8_t>((counter.next + 1) % counter_modulus);
   return frame;
 }
@@ -118,18 +105,16 @@ template <class Message>
   return Verdict::accepted;
 }
 
+// One frame for itself: length, CRC, range.
 template <class Message>
-[[nodiscard]] constexpr Verdict receive(const Frame& frame, ReceiveCounter& counter, Message& message) {
+[[nodiscard]] constexpr Verdict receive(const Frame& frame, Message& message) {
   constexpr const MessageInfo& info = layout<Message>.info;
-  static_assert(info.data_id != unprotected, "this message carries no E2E protection: unpack it");
+  static_assert(info.data_ids != unprotected, "this message carries no E2E protection: unpack it");
   if (frame.length != info.length) {
     return Verdict::wrong_length;
   }
-  if (frame.data[0] != protection_crc(frame, info.data_id)) {
+  if (frame.data[0] != protection_crc(frame, info.data_ids)) {
     return Verdict::wrong_crc;
-  }
-  if (!detail::counter_follows(counter, counter_of(frame))) {
-    return Verdict::wrong_counter;
   }
   return unpack(frame, message);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The identifiers that a controller listens to: no other frame can move it. A port filters by them. The only
-// list: operator, vision, Sync, and what the drives tell.
+// list: operator, vision, Sync, what the drives tell, and what only a controller sends: a second one on the bus is
+// noticed by that.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +15,13 @@ namespace striker::can {
 
 template <DriveProtocol Drives>
 inline constexpr auto controller_receives = [] {
-  constexpr std::array<std::uint16_t, 5> always = {layout<EmergencyStop>.info.id, layout<Sync>.info.id,
-                                                   layout<ModeCommand>.info.id, layout<VisionPose>.info.id,
-                                                   layout<VisionBall>.info.id};
-  std::array<std::uint16_t, always.size() + Drives::receives.size()> all{};
-  std::copy(Drives::receives.begin(), Drives::receives.end(),
-            std::copy(always.begin(), always.end(), all.begin()));
+  constexpr std::array<std::uint16_t, 6> always = {layout<EmergencyStop>.info.id, layout<Sync>.info.id,
+                                                   layout<ModeCommand>.info.id,   layout<VisionPose>.info.id,
+                                                   layout<VisionBall>.info.id,    layout<Status>.info.id};
+  std::array<std::uint16_t, always.size() + Drives::receives.size() + Drives::sends.size()> all{};
+  auto* end = std::copy(always.begin(), always.end(), all.begin());
+  end = std::copy(Drives::receives.begin(), Drives::receives.end(), end);
+  std::copy(Drives::sends.begin(), Drives::sends.end(), end);
   return all;
 }();
 

@@ -67,7 +67,7 @@ void write_message(Writer& out, const Layout<Message, Signals>& message) {
   const MessageInfo& info = message.info;
   out << "BO_ " << info.id << " " << info.name << ": " << info.length << " "
       << node_names[static_cast<std::size_t>(info.sender)] << "\n";
-  if (info.data_id != unprotected) {
+  if (info.data_ids != unprotected) {
     write_signal(out, "crc", 0, 8, false, units::one, 0, 255, "");
     write_signal(out, "counter", 8, 4, false, units::one, 0, 15, "");
   }
@@ -93,7 +93,7 @@ constexpr std::array<Attribute, 7> attributes = {{
     {"Burst", 1, [](const MessageInfo& info) { return std::int64_t{info.traffic.burst}; }},
     {"Deadline", 0, [](const MessageInfo& info) { return std::int64_t{info.traffic.deadline_ms}; }},
     {"Awaited", 0, [](const MessageInfo& info) { return std::int64_t{info.traffic.awaited ? 1 : 0}; }},
-    {"E2EDataId", 0, [](const MessageInfo& info) { return std::int64_t{info.data_id}; }},
+    {"E2EDataIdList", 0, [](const MessageInfo& info) { return std::int64_t{info.data_ids}; }},
 }};
 
 void write_attributes(Writer& out, const MessageInfo& info) {

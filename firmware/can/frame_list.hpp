@@ -35,6 +35,7 @@ class FrameList {
     count_ = kept;
     return dropped;
   }
+  [[nodiscard]] std::span<Frame> frames() { return std::span(frames_).first(count_); }
   [[nodiscard]] std::span<const Frame> frames() const { return std::span(frames_).first(count_); }
 
  private:

@@ -13,6 +13,8 @@
 #include <span>
 #include <string_view>
 
+#include "firmware/can/e2e.hpp"
+
 namespace striker::can {
 
 // digits * 10^exponent: scales stay exact without floating point.
@@ -71,8 +73,6 @@ enum class Node : std::uint8_t { controller, drives, operator_, simulator, visio
 inline constexpr std::array<std::string_view, 5> node_names = {"Controller", "Drives", "Operator",
                                                                "Simulator", "Vision"};
 
-inline constexpr std::uint16_t unprotected = 0;
-
 // What a bus analysis needs to know beyond the period (see sil/budget/response_time.hpp).
 struct Traffic {
   std::uint16_t distance_ms = 0;  // shortest time from one frame to the next; 0: the period
@@ -102,9 +102,9 @@ struct MessageInfo {
   std::uint16_t id;
   std::uint8_t length;
   Node sender;
-  std::uint16_t period_ms = 0;          // 0: on events
-  std::uint16_t timeout_ms = 0;         // a receiver's freshness limit; 0: none
-  std::uint16_t data_id = unprotected;  // for E2E
+  std::uint16_t period_ms = 0;        // 0: on events
+  std::uint16_t timeout_ms = 0;       // a receiver's freshness limit; 0: none
+  DataIdList data_ids = unprotected;  // for E2E
   std::string_view comment = {};
   Traffic traffic = {};
 };
@@ -141,7 +141,7 @@ constexpr bool range_is_representable(const Signal<Message>& signal) {
 template <class Message>
 constexpr bool layout_is_sound() {
   const auto& [info, signals] = layout<Message>;
-  std::uint64_t taken = info.data_id == unprotected ? 0 : detail::bit_mask(12);
+  std::uint64_t taken = info.data_ids == unprotected ? 0 : detail::bit_mask(12);
   bool sound = info.id <= 0x7FF && info.length >= 1 && info.length <= 8 && info.traffic.burst >= 1 &&
                (info.period_ms > 0 || info.traffic.distance_ms > 0);
   for (const auto& signal : signals) {

@@ -1,36 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
-// One protected message as a receiver knows it: its counter, and how long that is remembered.
+// One protected message as its receiver knows it: frames are checked one by one (codec.hpp) and as a sequence
+// (e2e_state.hpp), by the time at which they were received.
+//
+//   MessageReceiver<WheelState> receiver;
+//   WheelState state;
+//   if (receiver.take(frame, tick, state) == Verdict::accepted) ...   // all of it was replaced, or none
 #pragma once
 
 #include <cstdint>
 
 #include "firmware/can/codec.hpp"
+#include "firmware/can/e2e_state.hpp"
 #include "firmware/core/freshness.hpp"
 
 namespace striker::can {
 
-// A message without a time-out of its own is an operator's: this long after the last one its counter is
-// forgotten, so that another tool may start anywhere.
-inline constexpr std::uint32_t event_counter_memory_ticks = 200;
-
 template <class Message>
 class MessageReceiver {
  public:
-  // Checks the frame; accepted, all of `message` is replaced, otherwise none of it.
+  // `tick` is now; the frame came `frame.age_ms` earlier. Accepted, all of `message` is replaced.
   [[nodiscard]] Verdict take(const Frame& frame, std::uint32_t tick, Message& message) {
-    constexpr std::uint32_t timeout_ms = layout<Message>.info.timeout_ms;
-    constexpr std::uint32_t memory_ticks = timeout_ms != 0 ? timeout_ms : event_counter_memory_ticks;
-    counter_.seen = counter_.seen && accepted_.within(tick, memory_ticks);
-    const Verdict verdict = receive(frame, counter_, message);
-    if (verdict == Verdict::accepted) {
-      accepted_.feed(tick);
+    const std::uint32_t received_tick = tick - frame.age_ms;
+    if (heard_.ever() && !heard_.within(received_tick, info.timeout_ms)) {
+      machine_.forget();
     }
-    return verdict;
+    Message taken;
+    const Verdict verdict = receive(frame, taken);
+    heard_.feed(received_tick);
+    if (verdict != Verdict::accepted) {
+      machine_.take_wrong();
+      return verdict;
+    }
+    if (!machine_.take_correct(counter_of(frame))) {
+      return Verdict::wrong_counter;
+    }
+    message = taken;
+    return Verdict::accepted;
   }
 
+  // Frames come, and are not to be believed any more.
+  [[nodiscard]] bool invalid() const { return machine_.state() == E2eState::invalid; }
+
  private:
-  ReceiveCounter counter_;
-  core::Freshness accepted_;
+  static constexpr const MessageInfo& info = layout<Message>.info;
+  static_assert(info.timeout_ms > 0, "a message on events has no sequence to check");
+
+  E2eMachine<window_for(info.period_ms)> machine_;
+  core::Freshness heard_;
 };
 
 }  // namespace striker::can

@@ -30,10 +30,11 @@
 
 namespace striker::can {
 
-inline constexpr std::int32_t protocol_version = 3;
+inline constexpr std::int32_t protocol_version = 4;
 
-using Messages = std::tuple<EmergencyStop, FaultReport, Sync, ModeCommand, WheelCommand, WheelState,
-                            VisionPose, VisionBall, Status, Decision, Timing, Heartbeat, Version, EndOfTick>;
+using Messages =
+    std::tuple<EmergencyStop, FaultReport, Sync, ModeCommand, Challenge, WheelCommand, WheelState, VisionPose,
+               VisionBall, Status, Safety, Decision, Timing, Heartbeat, Version, EndOfTick>;
 
 // Calls visit(layout) for every message, in the order of the table.
 template <class Visit>
@@ -74,7 +75,7 @@ constexpr bool names_and_data_ids_are_unique() {
     for_each_layout([&](const auto& other) {
       const bool same = one.info.id == other.info.id;
       const bool clash = one.info.name == other.info.name ||
-                         (one.info.data_id != unprotected && one.info.data_id == other.info.data_id);
+                         (one.info.data_ids != unprotected && one.info.data_ids == other.info.data_ids);
       unique = unique && (same || !clash);
     });
   });

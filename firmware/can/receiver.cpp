@@ -17,19 +17,23 @@ core::Vector position_um(std::int32_t x_quarter_mm, std::int32_t y_quarter_mm) {
   return {x_quarter_mm * um_per_quarter_mm, y_quarter_mm * um_per_quarter_mm};
 }
 
-void request(Mode mode, core::Percepts& percepts) {
-  switch (mode) {
-    case Mode::disarm:
-      percepts.requests.disarm = true;
-      percepts.robot.reset();
-      percepts.ball.reset();
-      break;
-    case Mode::arm:
-      percepts.requests.arm = true;
-      break;
-    case Mode::clear:
-      percepts.requests.clear = true;
-      break;
+core::Order order_of(Mode mode) {
+  return mode == Mode::arm ? core::Order::arm : mode == Mode::clear ? core::Order::clear : core::Order::none;
+}
+
+void request(const ModeCommand& command, core::Percepts& percepts) {
+  const auto mode = static_cast<Mode>(command.mode);
+  core::Requests& requests = percepts.requests;
+  if (mode == Mode::disarm) {
+    requests.disarm = true;
+    percepts.robot.reset();
+    percepts.ball.reset();
+  } else if (mode == Mode::renew) {
+    requests.renew = true;
+  } else if (command.challenge == 0) {
+    requests.asked = order_of(mode);
+  } else {
+    requests.confirmed = {order_of(mode), static_cast<std::uint32_t>(command.challenge)};
   }
 }
 
@@ -56,23 +60,35 @@ void Receiver::take_frame(const Frame& frame, std::uint32_t tick, core::Percepts
     if (accepted(pose_.take(frame, tick, pose))) {
       percepts.robot = {.picture = pose.frame,
                         .position_um = position_um(pose.x_quarter_mm, pose.y_quarter_mm),
-                        .heading = core::wrap_angle(pose.heading)};
+                        .heading = core::wrap_angle(pose.heading),
+                        .age_ticks = frame.age_ms};
     }
+    percepts.invalid.vision = pose_.invalid() || percepts.invalid.vision;
   } else if (is<VisionBall>(frame)) {
     VisionBall ball;
     if (accepted(ball_.take(frame, tick, ball))) {
       percepts.ball = {.picture = ball.frame,
-                       .position_um = position_um(ball.x_quarter_mm, ball.y_quarter_mm)};
+                       .position_um = position_um(ball.x_quarter_mm, ball.y_quarter_mm),
+                       .age_ticks = frame.age_ms};
     }
+    percepts.invalid.vision = ball_.invalid() || percepts.invalid.vision;
   } else if (is<ModeCommand>(frame)) {
     ModeCommand command;
-    if (accepted(mode_.take(frame, tick, command))) {
-      request(static_cast<Mode>(command.mode), percepts);
+    if (operators(receive(frame, command), percepts)) {
+      request(command, percepts);
     }
   } else if (is<EmergencyStop>(frame)) {
     EmergencyStop stop;
-    percepts.emergency_stop = accepted(stop_.take(frame, tick, stop)) || percepts.emergency_stop;
+    percepts.emergency_stop = operators(receive(frame, stop), percepts) || percepts.emergency_stop;
+  } else if (is<Status>(frame)) {
+    percepts.second_controller = true;
   }
+}
+
+// An operator's frames are events: any counter will do, and what is wrong is remembered.
+bool Receiver::operators(Verdict verdict, core::Percepts& percepts) {
+  percepts.invalid.operators = percepts.invalid.operators || verdict != Verdict::accepted;
+  return accepted(verdict);
 }
 
 }  // namespace striker::can

@@ -6,10 +6,13 @@
 //   StrikerDrives drives;
 //   const core::Percepts percepts = receiver.take(frames, tick, drives);
 //
-// Other identifiers are none of its business. Cost: a CRC over up to 8 bytes for each frame that is meant for
+// An operator's frames count one by one, whatever their counter; everything else is believed as a sequence
+// (e2e_state.hpp). What only a controller sends, on a bus that does not echo, comes from a second one. Other
+// identifiers are none of its business. Cost: a CRC over up to 8 bytes for each frame that is meant for
 // the controller.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -38,10 +41,9 @@ class Receiver {
     core::Percepts percepts;
     for (const Frame& frame : frames) {
       if (Drives::owns(frame)) {
-        core::WheelSpeeds speeds;
-        if (accepted(drives.take(frame, tick, speeds))) {
-          percepts.wheels = speeds;
-        }
+        take_drives(frame, tick, drives, percepts);
+      } else if (std::find(Drives::sends.begin(), Drives::sends.end(), frame.id) != Drives::sends.end()) {
+        percepts.second_controller = true;
       } else {
         take_frame(frame, tick, percepts);
       }
@@ -52,14 +54,23 @@ class Receiver {
   [[nodiscard]] const IgnoredFrames& ignored() const { return ignored_; }
 
  private:
+  template <DriveProtocol Drives>
+  void take_drives(const Frame& frame, std::uint32_t tick, Drives& drives, core::Percepts& percepts) {
+    DriveReport report;
+    if (accepted(drives.take(frame, tick, report))) {
+      percepts.wheels = report.speeds;
+      percepts.wheels_age_ticks = frame.age_ms;
+      percepts.drives_cut = report.cut;
+    }
+    percepts.invalid.wheels = drives.invalid();
+  }
   void take_frame(const Frame& frame, std::uint32_t tick, core::Percepts& percepts);
+  bool operators(Verdict verdict, core::Percepts& percepts);
   bool accepted(Verdict verdict) {
     ignored_.count(verdict);
     return verdict == Verdict::accepted;
   }
 
-  MessageReceiver<EmergencyStop> stop_;
-  MessageReceiver<ModeCommand> mode_;
   MessageReceiver<VisionPose> pose_;
   MessageReceiver<VisionBall> ball_;
   IgnoredFrames ignored_;

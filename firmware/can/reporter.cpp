@@ -31,23 +31,34 @@ Frame decision_frame(const core::Decision& decision) {
                        .next_q_256th = decision.next_q_256th});
 }
 
+Challenge challenge_of(const core::OpenRequest& request) {
+  const Mode mode = request.order == core::Order::arm ? Mode::arm : Mode::clear;
+  return {.mode = static_cast<std::int32_t>(mode), .challenge = static_cast<std::int32_t>(request.challenge)};
+}
+
 }  // namespace
 
 void Reporter::report(std::uint32_t tick, const core::Actions& actions, const IgnoredFrames& ignored,
-                      const Timing& timing, std::uint32_t policy_identity, FrameList& frames) {
+                      const PortReport& port, std::uint32_t policy_identity, FrameList& frames) {
+  if (actions.challenge.order != core::Order::none) {
+    frames.add(send(challenge_of(actions.challenge), challenge_counter_));
+  }
   if (actions.decision) {
     frames.add(decision_frame(*actions.decision));
   }
   const bool changed = actions.state != told_state_ || actions.fault != told_fault_;
   const bool faulty = actions.state == core::State::fault;
-  if (faulty && (changed || fault_report_.due(tick, period<FaultReport>))) {
+  if (faulty && (changed || port.repeat_fault || fault_report_.due(tick, period<FaultReport>))) {
     report_fault(tick, actions, frames);
   }
   if (changed || status_.due(tick, period<Status>)) {
     report_status(tick, actions, ignored, frames);
   }
+  if (actions.faults != told_faults_ || safety_.due(tick, period<Safety>)) {
+    report_safety(tick, actions, port, frames);
+  }
   if (take_due(timing_, tick, period<Timing>)) {
-    frames.add(pack(timing));
+    frames.add(pack(port.timing));
   }
   if (take_due(heartbeat_, tick, period<Heartbeat>)) {
     frames.add(pack(Heartbeat{.uptime_ms = low_31_bits(actions.uptime_ticks)}));
@@ -65,6 +76,17 @@ void Reporter::report_fault(std::uint32_t tick, const core::Actions& actions, Fr
   frames.add(send(
       FaultReport{.code = static_cast<std::int32_t>(actions.fault), .tick = low_31_bits(actions.fault_tick)},
       fault_report_counter_));
+}
+
+void Reporter::report_safety(std::uint32_t tick, const core::Actions& actions, const PortReport& port,
+                             FrameList& frames) {
+  safety_.sent(tick);
+  told_faults_ = actions.faults;
+  frames.add(send(Safety{.limits = static_cast<std::int32_t>(port.limits),
+                         .faults = static_cast<std::int32_t>(actions.faults),
+                         .blocked = static_cast<std::int32_t>(port.blocked),
+                         .lost_frames = static_cast<std::int32_t>(port.lost_frames)},
+                  safety_counter_));
 }
 
 void Reporter::report_status(std::uint32_t tick, const core::Actions& actions, const IgnoredFrames& ignored,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller's send side but for the drives: frames of what it says, each when it is due.
 //
-// In the order of sending: Decision in the tick that made one; FaultReport at a fault and every 100 ms while
-// it is latched; Status at a change and every 10 ms; Timing and Heartbeat every 100 ms; Version every second.
+// In the order of sending: Challenge in the tick of a request; Decision in the tick that made one; FaultReport at
+// a fault and every 100 ms while it is latched; Status at a change and every 10 ms; Safety at a change of the faults
+// and every 100 ms; Timing and Heartbeat every 100 ms; Version every second.
 // The periods are the message table's.
 #pragma once
 
@@ -32,29 +33,45 @@ class SendSchedule {
   std::uint32_t last_tick_ = 0;
 };
 
+// What the port tells beside what the controller does.
+struct PortReport {
+  Timing timing;
+  std::uint32_t limits = 0;       // limit_...: what the gate held back in the last tick
+  std::uint32_t blocked = 0;      // commands that it stopped since boot
+  std::uint32_t lost_frames = 0;  // since boot
+  bool repeat_fault = false;      // a latched fault is told again, whatever logical time says
+};
+
 class Reporter {
  public:
   // One of each at most, in a tick.
-  static constexpr std::size_t most_frames = 6;
+  static constexpr std::size_t most_frames = 8;
   static_assert(most_frames + 2 == messages_from(Node::controller), "all but WheelCommand and EndOfTick");
 
   void report(std::uint32_t tick, const core::Actions& actions, const IgnoredFrames& ignored,
-              const Timing& timing, std::uint32_t policy_identity, FrameList& frames);
+              const PortReport& port, std::uint32_t policy_identity, FrameList& frames);
 
  private:
   void report_fault(std::uint32_t tick, const core::Actions& actions, FrameList& frames);
   void report_status(std::uint32_t tick, const core::Actions& actions, const IgnoredFrames& ignored,
                      FrameList& frames);
 
+  void report_safety(std::uint32_t tick, const core::Actions& actions, const PortReport& port,
+                     FrameList& frames);
+
   core::State told_state_ = core::State::boot;
   core::Fault told_fault_ = core::Fault::none;
+  core::Faults told_faults_ = 0;
   SendSchedule fault_report_;
   SendSchedule status_;
+  SendSchedule safety_;
   SendSchedule timing_;
   SendSchedule heartbeat_;
   SendSchedule version_;
   SendCounter fault_report_counter_;
   SendCounter status_counter_;
+  SendCounter safety_counter_;
+  SendCounter challenge_counter_;
 };
 
 }  // namespace striker::can

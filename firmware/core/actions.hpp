@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "firmware/core/consent.hpp"
 #include "firmware/core/percepts.hpp"
 #include "firmware/core/state.hpp"
 
@@ -36,8 +37,10 @@ struct Actions {
   std::optional<Decision> decision;  // in the tick that made one
   State state = State::boot;
   Fault fault = Fault::none;     // the first since the last clear
+  Faults faults = 0;             // all of them
   std::uint32_t fault_tick = 0;  // in which it was latched
   std::uint32_t uptime_ticks = 0;
+  OpenRequest challenge;      // in the tick in which something was asked for
   bool vision_ready = false;  // pictures are fresh, and good for a velocity: arming needs that
   bool wheels_ready = false;  // wheel speeds are fresh
 };

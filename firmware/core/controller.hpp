@@ -17,11 +17,14 @@
 //
 // Ticks are logical and count milliseconds. One that jumps forward is a port that missed periods: what was
 // fresh ages by the jump. The same tick twice lets no time pass: a port uses it to hand in a fault or a stop
-// between two ticks.
+// between two ticks. A tick that goes back is a fault.
 //
-// Arming wants state standby, two pictures since the last disarm, and fresh wheel speeds. Disarming, not
-// arming, forgets the pictures: so the two that arming waits for give the first decision its velocity, and
-// nothing from before the disarm can. A port's stop is a disarm in every respect.
+// Arming wants state standby, two pictures since the last disarm, fresh wheel speeds, and consent in two steps
+// (consent.hpp). It lasts `armed_limit_ticks` and is prolonged by a renewal. Disarming, not arming, forgets the
+// pictures: so the two that arming waits for give the first decision its velocity, and nothing from before the
+// disarm can. A port's stop is a disarm in every respect.
+//
+// The state is sealed between two steps (seal.hpp): a bit of it that changes by itself is found before it is used.
 //
 // Cost: instructions a step on every core are in firmware/policy/README.md; the longest is one with a
 // decision.
@@ -32,160 +35,270 @@
 
 #include "firmware/core/actions.hpp"
 #include "firmware/core/command_check.hpp"
+#include "firmware/core/consent.hpp"
 #include "firmware/core/decision_clock.hpp"
 #include "firmware/core/estimation/estimator.hpp"
+#include "firmware/core/estimation/plausibility.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
-#include "firmware/core/freshness.hpp"
 #include "firmware/core/percepts.hpp"
 #include "firmware/core/pilot.hpp"
 #include "firmware/core/robot_profile.hpp"
+#include "firmware/core/seal.hpp"
 #include "firmware/core/supervisor.hpp"
+#include "firmware/core/vigilance.hpp"
 #include "firmware/core/wheel_loop.hpp"
 
 namespace striker::core {
 
-// A pressed stop holds this long after its last frame, so that a clear cannot overtake a button that repeats.
-inline constexpr std::uint32_t stop_hold_ticks = 200;
-
 struct Inputs {
   std::uint32_t tick = 0;
   Percepts percepts;
-  Fault port_fault = Fault::none;  // what the port sees now: overrun, bus_off, sync_lost
-  bool stop = false;               // the port stops: to standby, with torque 0
+  Faults port_faults = 0;  // what the port sees now: overrun, bus_off, sync_lost, ...
+  bool stop = false;       // the port stops: to standby, with torque 0
 };
 
+// Ticks may jump forward by this much; beyond it, time has gone back.
+inline constexpr std::uint32_t greatest_jump_ticks = 0x7FFFFFFF;
+
+// `seed` begins the sequence of challenges; 0 is for simulations (consent.hpp).
 template <class PilotType>
 class Controller {
  public:
   using Pilot = PilotType;
 
-  explicit constexpr Controller(const RobotProfile& robot) : robot_(robot) {}
+  explicit constexpr Controller(const RobotProfile& robot, std::uint32_t seed = 0)
+      : now_(robot, seed), seal_(seal_of(now_)), memory_seal_(seal_of(memory_)) {}
 
   void step(const Inputs& inputs, Actions& actions) {
-    tick_ = inputs.tick;
-    Requests requests = inputs.percepts.requests;
-    requests.disarm = requests.disarm || inputs.stop;
-    const bool new_picture = sense(inputs.percepts, requests.disarm);
-    const Conditions now = conditions(requests, inputs.port_fault);
-    adopt(supervise(supervisor_, now));
-    actions.decision = decide(new_picture);
-    actions.drive = drive(now);
-    report(now, actions);
+    memory_is_open_ = false;
+    if (seal_of(now_) != seal_) {
+      forget_corrupt_state();
+    }
+    const Conditions conditions = sense(inputs);
+    adopt(supervise(now_.supervisor, conditions));
+    actions.decision = decide();
+    actions.drive = drive(conditions);
+    report(conditions, actions);
+    if (memory_is_open_) {
+      memory_seal_ = seal_of(memory_);
+    }
+    seal_ = seal_of(now_);
   }
 
-  [[nodiscard]] State state() const { return supervisor_.state; }
-  [[nodiscard]] Fault fault() const { return supervisor_.fault; }
-  [[nodiscard]] const PilotType& pilot() const { return pilot_; }
-  [[nodiscard]] const RobotProfile& robot() const { return robot_; }
+  // Logical time begins again, with a controller as from boot. A stop that was pressed is kept: only a power cycle
+  // forgets it; and so is what only a reboot clears.
+  void begin_anew() {
+    constexpr Faults kept = lasting_faults | set_of(Fault::emergency_stop);
+    const Faults faults = now_.supervisor.faults & kept;
+    *this = Controller(now_.robot, now_.consent.next_seed());
+    if (faults != 0) {
+      now_.supervisor = latch(now_.supervisor, faults);
+      seal_ = seal_of(now_);
+    }
+  }
+
+  [[nodiscard]] State state() const { return now_.supervisor.state; }
+  [[nodiscard]] Fault fault() const { return now_.supervisor.fault; }
+  [[nodiscard]] Faults faults() const { return now_.supervisor.faults; }
+  [[nodiscard]] const PilotType& pilot() const { return memory_.pilot; }
+  [[nodiscard]] const RobotProfile& robot() const { return now_.robot; }
 
  private:
-  // True if a picture was completed.
-  bool sense(const Percepts& percepts, bool disarm) {
-    if (supervisor_.state == State::boot) {
-      boot_tick_ = tick_;
-    }
-    if (disarm) {
-      estimator_.reset();
-      vision_ = {};
-    }
-    if (percepts.emergency_stop) {
-      stop_.feed(tick_);
-    }
-    if (percepts.wheels) {
-      wheels_.feed(tick_);
-      measured_ = *percepts.wheels;
-      estimator_.take(measured_);
-    }
-    if (percepts.robot) {
-      estimator_.take(*percepts.robot);
-    }
-    if (percepts.ball) {
-      estimator_.take(*percepts.ball);
-    }
-    const bool new_picture = estimator_.end_tick(tick_);
-    if (new_picture) {
-      vision_.feed(tick_);
-    }
-    return new_picture;
+  // What a tick changes. Without padding, and sealed whole.
+  struct Now {
+    constexpr Now(const RobotProfile& profile, std::uint32_t seed) : robot(profile), consent(seed) {}
+
+    RobotProfile robot;
+    std::uint32_t tick = 0;
+    std::uint32_t boot_tick = 0;
+    std::uint32_t fault_tick = 0;
+    std::uint32_t has_velocity = 0;  // of the estimator
+    std::uint32_t new_picture = 0;   // in this tick
+    SelfTest self_test = SelfTest::running;
+    Supervisor supervisor;
+    Consent consent;
+    Vigilance vigilance;
+    WheelPlausibility plausibility;
+    Odometry odometry;
+    DecisionClock clock;
+    WheelLoops loops;
+    WheelSpeeds measured;
+    WheelSpeeds set_point;  // the pilot's
+    WheelTorques torque;    // of the last command
+    typename PilotType::WeightsCheck weights;
+  };
+  // What a picture or a decision changes: sealed apart, as most ticks do neither.
+  struct Memory {
+    Estimator estimator;
+    PilotType pilot;
+  };
+
+  // Nothing of it can be believed, but that the robot has to stand.
+  void forget_corrupt_state() {
+    const Supervisor corrupt = {
+        .state = State::fault,
+        .fault = Fault::state_corrupt,
+        .faults = (now_.supervisor.faults & known_faults) | set_of(Fault::state_corrupt)};
+    const std::uint32_t tick = now_.tick;
+    now_ = Now(now_.robot, now_.consent.next_seed());
+    now_.tick = now_.boot_tick = now_.fault_tick = tick;
+    memory_ = {};
+    memory_is_open_ = true;
+    now_.supervisor = corrupt;
   }
 
-  Conditions conditions(const Requests& requests, Fault port_fault) {
-    const bool vision_fresh = vision_.within(tick_, vision_timeout_ticks);
-    return {.self_test = pilot_.test_self(robot_),
-            .requests = requests,
-            .emergency_stop = stop_.within(tick_, stop_hold_ticks),
-            .port_fault = port_fault,
+  Memory& open_memory() {
+    if (!memory_is_open_) {
+      memory_is_open_ = true;
+      if (seal_of(memory_) != memory_seal_) {
+        forget_corrupt_state();
+      }
+    }
+    return memory_;
+  }
+
+  Conditions sense(const Inputs& inputs) {
+    const bool boot = now_.supervisor.state == State::boot;
+    const bool went_back = !boot && inputs.tick - now_.tick > greatest_jump_ticks;
+    const std::uint32_t elapsed = boot || went_back ? 0 : inputs.tick - now_.tick;
+    now_.tick = inputs.tick;
+    now_.boot_tick = boot ? inputs.tick : now_.boot_tick;
+    test_self();
+    const bool disarm = inputs.percepts.requests.disarm || inputs.stop;
+    take(inputs.percepts, elapsed, disarm);
+    const Order granted = now_.consent.step(now_.tick, inputs.percepts.requests);
+    const bool vision_fresh = now_.vigilance.vision_is_fresh();
+    const Faults causes = now_.vigilance.causes(now_.supervisor.state == State::active) | inputs.port_faults |
+                          (now_.weights.step() ? 0 : set_of(Fault::policy_corrupt)) |
+                          (went_back ? set_of(Fault::clock_invalid) : 0);
+    return {.self_test = now_.self_test,
+            .granted = {.arm = granted == Order::arm, .disarm = disarm, .clear = granted == Order::clear},
+            .emergency_stop = now_.vigilance.stop_is_pressed(),
+            .causes = causes,
             .vision_fresh = vision_fresh,
-            .vision_ready = vision_fresh && estimator_.has_velocity(),
-            .wheels_fresh = wheels_.within(tick_, wheel_timeout_ticks)};
+            .vision_ready = vision_fresh && now_.has_velocity != 0,
+            .wheels_fresh = now_.vigilance.wheels_are_fresh()};
+  }
+
+  void test_self() {
+    if (now_.self_test == SelfTest::running) {
+      now_.self_test = open_memory().pilot.test_self(now_.robot);
+    }
+  }
+
+  void take(const Percepts& percepts, std::uint32_t elapsed, bool disarm) {
+    const bool active = now_.supervisor.state == State::active;
+    now_.vigilance.begin_tick(now_.tick, elapsed, active, now_.torque != WheelTorques{}, percepts);
+    if (disarm) {
+      open_memory().estimator.reset();
+      now_.vigilance.forget_pictures();
+      now_.has_velocity = 0;
+    }
+    if (percepts.wheels) {
+      now_.measured = *percepts.wheels;
+      now_.odometry.take(now_.measured);
+      if (active && !now_.plausibility.possible(now_.robot, now_.tick, now_.measured, now_.torque)) {
+        now_.vigilance.see_impossible_wheels();
+      }
+    }
+    now_.odometry.advance(now_.tick);
+    now_.new_picture = 0;
+    if (percepts.robot || percepts.ball) {
+      take_picture(percepts);
+    }
+  }
+
+  void take_picture(const Percepts& percepts) {
+    Estimator& estimator = open_memory().estimator;
+    if (percepts.robot) {
+      estimator.take(*percepts.robot, now_.tick);
+    }
+    if (percepts.ball) {
+      estimator.take(*percepts.ball, now_.tick);
+    }
+    const PictureResult result = estimator.end_tick(now_.robot, now_.tick, now_.odometry);
+    now_.vigilance.see_picture(result, estimator.picture_tick(), now_.tick);
+    now_.has_velocity = static_cast<std::uint32_t>(estimator.has_velocity());
+    now_.new_picture =
+        static_cast<std::uint32_t>(result == PictureResult::taken || result == PictureResult::mismatched);
   }
 
   // The only place where a state begins: faults get their stamp, and arming begins anew.
   void adopt(const Supervisor& next) {
-    if (next.fault != supervisor_.fault) {
-      fault_tick_ = tick_;
+    if (next.fault != now_.supervisor.fault) {
+      now_.fault_tick = now_.tick;
     }
-    if (next.state == State::active && supervisor_.state != State::active) {
-      clock_.restart();
-      pilot_.reset();
-      loops_.reset();
+    if (next.state == State::active && now_.supervisor.state != State::active) {
+      now_.clock.restart();
+      now_.loops.reset();
+      now_.plausibility.restart();
+      now_.set_point = {};
+      open_memory().pilot.reset();
     }
-    supervisor_ = next;
+    if (next.state != now_.supervisor.state) {
+      now_.consent.close();
+    }
+    now_.supervisor = next;
   }
 
-  std::optional<Decision> decide(bool new_picture) {
-    if (supervisor_.state != State::active) {
+  std::optional<Decision> decide() {
+    if (now_.supervisor.state != State::active) {
       return std::nullopt;
     }
-    const DecisionDue due = clock_.at(tick_, new_picture);
+    const DecisionDue due = now_.clock.at(now_.tick, now_.new_picture != 0);
     if (due == DecisionDue::no) {
       return std::nullopt;
     }
-    return pilot_.decide(relative_state(estimator_.at(tick_)), due == DecisionDue::extrapolated);
+    Memory& memory = open_memory();
+    if (now_.supervisor.state != State::active) {
+      return std::nullopt;  // the memory was corrupt
+    }
+    const Decision decision = memory.pilot.decide(
+        relative_state(memory.estimator.at(now_.tick, now_.odometry)), due == DecisionDue::extrapolated);
+    now_.set_point = memory.pilot.set_point();
+    return decision;
   }
 
-  DriveCommand drive(const Conditions& now) {
-    if (supervisor_.state != State::active || !clock_.started()) {
-      return {};
+  DriveCommand drive(const Conditions& conditions) {
+    DriveCommand command = {};
+    if (now_.supervisor.state == State::active && now_.clock.started()) {
+      command = checked(
+          {.torque = now_.loops.step(now_.robot, now_.set_point, now_.measured), .set_point = now_.set_point},
+          conditions);
     }
-    const DriveCommand wanted{.torque = loops_.step(robot_, pilot_.set_point(), measured_),
-                              .set_point = pilot_.set_point()};
-    const Fault refused = check_command(robot_, wanted,
-                                        {.armed = supervisor_.fault == Fault::none,
-                                         .vision_fresh = now.vision_fresh,
-                                         .wheels_fresh = now.wheels_fresh,
-                                         .measured = measured_});
+    now_.torque = command.torque;
+    return command;
+  }
+
+  DriveCommand checked(const DriveCommand& wanted, const Conditions& conditions) {
+    const Fault refused = check_command(now_.robot, wanted,
+                                        {.armed = now_.supervisor.fault == Fault::none,
+                                         .vision_fresh = conditions.vision_fresh,
+                                         .wheels_fresh = conditions.wheels_fresh,
+                                         .measured = now_.measured});
     if (refused == Fault::none) {
       return wanted;
     }
-    adopt(latch(supervisor_, refused));
+    adopt(latch(now_.supervisor, set_of(refused)));
     return {};
   }
 
-  void report(const Conditions& now, Actions& actions) const {
-    actions.state = supervisor_.state;
-    actions.fault = supervisor_.fault;
-    actions.fault_tick = fault_tick_;
-    actions.uptime_ticks = tick_ - boot_tick_;
-    actions.vision_ready = now.vision_ready;
-    actions.wheels_ready = now.wheels_fresh;
+  void report(const Conditions& conditions, Actions& actions) const {
+    actions.state = now_.supervisor.state;
+    actions.fault = now_.supervisor.fault;
+    actions.faults = now_.supervisor.faults;
+    actions.fault_tick = now_.fault_tick;
+    actions.uptime_ticks = now_.tick - now_.boot_tick;
+    actions.challenge = now_.consent.opened_at(now_.tick);
+    actions.vision_ready = conditions.vision_ready;
+    actions.wheels_ready = conditions.wheels_fresh;
   }
 
-  RobotProfile robot_;
-  std::uint32_t tick_ = 0;
-  std::uint32_t boot_tick_ = 0;
-  Supervisor supervisor_;
-  std::uint32_t fault_tick_ = 0;
-
-  Estimator estimator_;
-  WheelSpeeds measured_;
-  Freshness vision_;  // complete pictures
-  Freshness wheels_;
-  Freshness stop_;
-
-  DecisionClock clock_;
-  PilotType pilot_;
-  WheelLoops loops_;
+  Now now_;
+  Memory memory_;
+  bool memory_is_open_ = false;  // in this step: it was found sound, and will be sealed again
+  std::uint32_t seal_;
+  std::uint32_t memory_seal_;
 
   static_assert(std::is_trivially_copyable_v<PilotType>);
 };

@@ -22,21 +22,21 @@ class DecisionClock {
   void restart() { *this = {}; }
 
   // The first picture since `restart` has come.
-  [[nodiscard]] bool started() const { return !awaits_first_picture_; }
+  [[nodiscard]] bool started() const { return awaits_first_picture_ == 0; }
 
   // Once a tick, while armed.
   [[nodiscard]] DecisionDue at(std::uint32_t tick, bool new_picture) {
     const std::uint32_t phase = tick - decision_tick_;
     const bool early_enough = phase >= decision_period_ticks - decision_window_ticks;
-    const bool late_for_extrapolated = last_extrapolated_ && phase <= decision_window_ticks;
-    if (new_picture && (awaits_first_picture_ || early_enough || late_for_extrapolated)) {
-      awaits_first_picture_ = false;
-      last_extrapolated_ = false;
+    const bool late_for_extrapolated = last_extrapolated_ != 0 && phase <= decision_window_ticks;
+    if (new_picture && (awaits_first_picture_ != 0 || early_enough || late_for_extrapolated)) {
+      awaits_first_picture_ = 0;
+      last_extrapolated_ = 0;
       decision_tick_ = tick;
       return DecisionDue::on_picture;
     }
-    if (!awaits_first_picture_ && phase >= decision_period_ticks) {
-      last_extrapolated_ = true;
+    if (awaits_first_picture_ == 0 && phase >= decision_period_ticks) {
+      last_extrapolated_ = 1;
       decision_tick_ = tick - phase % decision_period_ticks;
       return DecisionDue::extrapolated;
     }
@@ -44,8 +44,9 @@ class DecisionClock {
   }
 
  private:
-  bool awaits_first_picture_ = true;
-  bool last_extrapolated_ = false;
+  // Whole words: they are part of the sealed state (seal.hpp).
+  std::uint32_t awaits_first_picture_ = 1;
+  std::uint32_t last_extrapolated_ = 0;
   std::uint32_t decision_tick_ = 0;
 };
 

@@ -24,11 +24,13 @@ struct RobotSighting {
   std::int32_t picture = 0;
   Vector position_um = {};
   BinaryAngle heading = 0;
+  std::uint8_t age_ticks = 0;  // since it was received
 };
 
 struct BallSighting {
   std::int32_t picture = 0;
   Vector position_um = {};
+  std::uint8_t age_ticks = 0;
 };
 
 // Of the rims, positive forward: as measured, or as a set-point.
@@ -38,18 +40,38 @@ struct WheelSpeeds {
   bool operator==(const WheelSpeeds&) const = default;
 };
 
-// An operator's requests: each is set for the one tick in which it came.
+// Whole words: they are part of the sealed state (seal.hpp).
+enum class Order : std::uint32_t { none, arm, clear };
+
+struct Confirmation {
+  Order order = Order::none;
+  std::uint32_t challenge = 0;
+};
+
+// What an operator sent in this tick; of several of a kind the last one counts.
 struct Requests {
-  bool arm = false;
-  bool disarm = false;
-  bool clear = false;
+  bool disarm = false;  // at once
+  bool renew = false;   // being armed goes on
+  Order asked = Order::none;
+  Confirmation confirmed;
+};
+
+// What the receiver found wrong with a message as a whole; its data were not taken.
+struct InvalidMessages {
+  bool wheels = false;     // wheel states come, but not in sequence, or wrong
+  bool vision = false;     // the same of pictures
+  bool operators = false;  // wrong frames under an operator's identifier
 };
 
 struct Percepts {
   std::optional<RobotSighting> robot;
   std::optional<BallSighting> ball;
   std::optional<WheelSpeeds> wheels;
+  std::uint8_t wheels_age_ticks = 0;  // since they were received
+  bool drives_cut = false;            // the drives say that they hold the torque at 0; with `wheels`
   bool emergency_stop = false;
+  bool second_controller = false;  // a frame of another controller came
+  InvalidMessages invalid;
   // After a disarm nothing from before it counts: the sightings above are later than the request.
   Requests requests;
 };

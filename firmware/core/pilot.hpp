@@ -27,6 +27,7 @@
 #include "firmware/core/tick.hpp"
 #include "firmware/policy/network.hpp"
 #include "firmware/policy/proof.hpp"
+#include "firmware/policy/weights_check.hpp"
 
 namespace striker::core {
 
@@ -48,6 +49,7 @@ class Pilot {
 
  public:
   static constexpr std::uint32_t identity = policy.identity;
+  using WeightsCheck = policy::WeightsCheck<policy>;
 
   // What the network reads, in the order of its inputs, and where its actions send the wheels. Copies: what
   // is read at run time must not bring the header's weights into the image, where the kernel's own are.
@@ -117,7 +119,7 @@ class Pilot {
 
   // Since the reset; and the last one's action.
   [[nodiscard]] std::uint32_t decisions() const { return decisions_; }
-  [[nodiscard]] std::uint8_t action() const { return action_; }
+  [[nodiscard]] std::uint8_t action() const { return static_cast<std::uint8_t>(action_); }
 
   // What the network read in the last decision, for telemetry and tests.
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
@@ -168,9 +170,9 @@ class Pilot {
   }
 
   SelfTest self_test_ = SelfTest::running;
-  std::size_t self_tested_ = 0;  // golden vectors that passed
-  std::uint32_t decisions_ = 0;  // since the reset
-  std::uint8_t action_ = 0;
+  std::uint32_t self_tested_ = 0;  // golden vectors that passed
+  std::uint32_t decisions_ = 0;    // since the reset
+  std::uint32_t action_ = 0;       // a whole word: it is sealed
   WheelSpeeds set_point_;
   Inputs inputs_{};
   std::array<RelativeState, look_back + 1> history_{};  // of the decisions, the newest first

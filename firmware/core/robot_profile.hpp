@@ -5,7 +5,7 @@
 // the wheel loops and the checks need, in integers, when the program is compiled. Other people's robots are
 // other descriptions; nothing else in the core knows a robot's number.
 //
-//   constexpr RobotDescription mine = {.body_mass_g = 2200, .wheel_mass_g = 120, .wheel_radius_um = 50'000,
+//   constexpr RobotDescription mine = {.body_mass_g = 2200, .wheel_mass_g = 120, .wheel_radius_um = 50'000, .axle_length_um = 160'000,
 //                                      .torque_limit_mNm = 600, .top_rim_speed_mm_s = 1500};
 //   Controller<Pilot<policy::kick>> controller(profile_of(mine));
 #pragma once
@@ -19,6 +19,7 @@ struct RobotDescription {
   std::int32_t body_mass_g;
   std::int32_t wheel_mass_g;  // each: a solid cylinder
   std::int32_t wheel_radius_um;
+  std::int32_t axle_length_um;      // between the wheels' centres
   std::int32_t torque_limit_mNm;    // of each wheel
   std::int32_t top_rim_speed_mm_s;  // of each wheel
 };
@@ -27,16 +28,19 @@ struct RobotDescription {
 inline constexpr RobotDescription goalkeeper = {.body_mass_g = 2500,
                                                 .wheel_mass_g = 150,
                                                 .wheel_radius_um = 40'000,
+                                                .axle_length_um = 140'000,
                                                 .torque_limit_mNm = 800,
                                                 .top_rim_speed_mm_s = 1800};
 inline constexpr RobotDescription defender = {.body_mass_g = 2000,
                                               .wheel_mass_g = 100,
                                               .wheel_radius_um = 40'000,
+                                              .axle_length_um = 140'000,
                                               .torque_limit_mNm = 1200,
                                               .top_rim_speed_mm_s = 2100};
 inline constexpr RobotDescription forward = {.body_mass_g = 1500,
                                              .wheel_mass_g = 100,
                                              .wheel_radius_um = 40'000,
+                                             .axle_length_um = 140'000,
                                              .torque_limit_mNm = 400,
                                              .top_rim_speed_mm_s = 2550};
 
@@ -46,6 +50,7 @@ struct RobotProfile {
   std::int32_t overspeed_mm_s = 0;      // a wheel this fast must not be driven further
   std::int32_t kp_q8 = 0;               // of the wheel loops: mNm for a mm/s
   std::int32_t ki_tick_q16 = 0;         // mNm for a mm/s and a tick
+  std::int32_t turn_q12 = 0;            // binary angle for a um that the right rim is ahead of the left
 
   bool operator==(const RobotProfile&) const = default;
 };
@@ -75,11 +80,14 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
   const std::int64_t kp_e9 = crossover_rad_s * robot.wheel_radius_um * moved_mass_g / 2;
   constexpr std::int64_t e9 = 1'000'000'000;
   constexpr std::int64_t ticks_a_second = 1'000;
+  constexpr std::int64_t circle_um_e3 =
+      10'430'378;  // 65,536 / (2 pi): counts for an arc of one axle's length
   return {.torque_limit_mNm = robot.torque_limit_mNm,
           .top_rim_speed_mm_s = robot.top_rim_speed_mm_s,
           .overspeed_mm_s = rounded_ratio(overspeed_percent * robot.top_rim_speed_mm_s, 100),
           .kp_q8 = rounded_ratio(256 * kp_e9, e9),
-          .ki_tick_q16 = rounded_ratio(65'536 * integral_corner_rad_s * kp_e9, ticks_a_second * e9)};
+          .ki_tick_q16 = rounded_ratio(65'536 * integral_corner_rad_s * kp_e9, ticks_a_second * e9),
+          .turn_q12 = rounded_ratio(4'096 * circle_um_e3, 1'000 * std::int64_t{robot.axle_length_um})};
 }
 
 // No product and no sum of the wheel loops leaves 32 bits, for measured speeds within +-8000 mm/s. Where a loop
@@ -108,7 +116,8 @@ static_assert(loops_fit(profile_of(forward)) && loops_fit(profile_of(defender)) 
 static_assert(profile_of(forward) == RobotProfile{.torque_limit_mNm = 400,
                                                   .top_rim_speed_mm_s = 2550,
                                                   .overspeed_mm_s = 2933,
-                                                  .kp_q8 = 922,           // 3.6 mNm/(mm/s)
-                                                  .ki_tick_q16 = 2359});  // 36 mNm/(mm/s)/s at 1 kHz
+                                                  .kp_q8 = 922,         // 3.6 mNm/(mm/s)
+                                                  .ki_tick_q16 = 2359,  // 36 mNm/(mm/s)/s at 1 kHz
+                                                  .turn_q12 = 305});
 
 }  // namespace striker::core

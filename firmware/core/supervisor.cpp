@@ -5,77 +5,70 @@ namespace striker::core {
 
 namespace {
 
-// The most urgent cause that this tick shows in this state.
-Fault cause_of_fault(State state, const Conditions& conditions) {
-  if (conditions.self_test == SelfTest::failed) {
-    return Fault::self_test_failed;
-  }
-  if (conditions.emergency_stop) {
-    return Fault::emergency_stop;
-  }
-  if (conditions.port_fault != Fault::none) {
-    return conditions.port_fault;
-  }
+constexpr Faults set_if(bool condition, Fault fault) {
+  return condition ? set_of(fault) : 0;
+}
+
+// What this tick shows to be wrong in this state.
+Faults causes_in(State state, const Conditions& conditions) {
   // A disarm takes the torque anyway, and makes the vision stale by itself.
-  const bool needs_inputs = state == State::active && !conditions.requests.disarm;
-  if (needs_inputs && !conditions.vision_fresh) {
-    return Fault::vision_lost;
-  }
-  if (needs_inputs && !conditions.wheels_fresh) {
-    return Fault::wheel_state_lost;
+  const bool needs_inputs = state == State::active && !conditions.granted.disarm;
+  return conditions.causes | set_if(conditions.self_test == SelfTest::failed, Fault::self_test_failed) |
+         set_if(conditions.emergency_stop, Fault::emergency_stop) |
+         set_if(needs_inputs && !conditions.vision_fresh, Fault::vision_lost) |
+         set_if(needs_inputs && !conditions.wheels_fresh, Fault::wheel_state_lost);
+}
+
+// A clear would have to come again at once, or forget what is still wrong.
+bool cause_lasts(Faults latched, const Conditions& conditions) {
+  const Faults missing = set_if(!conditions.vision_fresh, Fault::vision_lost) |
+                         set_if(!conditions.wheels_fresh, Fault::wheel_state_lost);
+  return causes_in(State::standby, conditions) != 0 || (latched & (missing | lasting_faults)) != 0;
+}
+
+Fault first_of(Faults faults) {
+  for (unsigned code = 1; code < fault_names.size(); ++code) {
+    if ((faults >> code & 1U) != 0) {
+      return static_cast<Fault>(code);
+    }
   }
   return Fault::none;
 }
 
-bool cause_lasts(Fault fault, const Conditions& conditions) {
-  switch (fault) {
-    case Fault::self_test_failed:
-      return true;
-    case Fault::emergency_stop:
-      return conditions.emergency_stop;
-    case Fault::vision_lost:
-      return !conditions.vision_fresh;
-    case Fault::wheel_state_lost:
-      return !conditions.wheels_fresh;
-    default:
-      return fault == conditions.port_fault;
+State without_fault(const Supervisor& now, const Conditions& conditions) {
+  const State tested = conditions.self_test == SelfTest::passed ? State::standby : State::self_test;
+  const Granted& granted = conditions.granted;
+  switch (now.state) {
+    case State::boot:
+      return State::self_test;
+    case State::standby:
+      return granted.arm && !granted.disarm && conditions.vision_ready && conditions.wheels_fresh
+                 ? State::active
+                 : State::standby;
+    case State::active:
+      return granted.disarm ? State::standby : State::active;
+    case State::self_test:
+    case State::fault:
+      break;
   }
+  return tested;
 }
 
 }  // namespace
 
 Supervisor supervise(const Supervisor& now, const Conditions& conditions) {
-  const State tested = conditions.self_test == SelfTest::passed ? State::standby : State::self_test;
-  if (now.state == State::fault) {
-    const bool cleared = conditions.requests.clear && !cause_lasts(now.fault, conditions) &&
-                         cause_of_fault(State::standby, conditions) == Fault::none;
-    return cleared ? Supervisor{tested, Fault::none} : now;
+  if (const Faults causes = causes_in(now.state, conditions); causes != 0) {
+    return latch(now, causes);
   }
-  const Fault cause = cause_of_fault(now.state, conditions);
-  if (cause != Fault::none) {
-    return {State::fault, cause};
+  if (now.state == State::fault && (!conditions.granted.clear || cause_lasts(now.faults, conditions))) {
+    return now;
   }
-  switch (now.state) {
-    case State::boot:
-      return {State::self_test, Fault::none};
-    case State::self_test:
-      return {tested, Fault::none};
-    case State::standby:
-      return {conditions.requests.arm && !conditions.requests.disarm && conditions.vision_ready &&
-                      conditions.wheels_fresh
-                  ? State::active
-                  : State::standby,
-              Fault::none};
-    case State::active:
-      return {conditions.requests.disarm ? State::standby : State::active, Fault::none};
-    case State::fault:
-      break;
-  }
-  return now;
+  return {.state = without_fault(now, conditions)};
 }
 
-Supervisor latch(const Supervisor& now, Fault fault) {
-  return now.state == State::fault ? now : Supervisor{State::fault, fault};
+Supervisor latch(const Supervisor& now, Faults faults) {
+  const Fault first = now.state == State::fault ? now.fault : first_of(faults);
+  return {.state = State::fault, .fault = first, .faults = now.faults | faults};
 }
 
 }  // namespace striker::core

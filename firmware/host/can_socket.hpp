@@ -7,9 +7,11 @@
 #pragma once
 
 #include <linux/can.h>
+#include <sys/socket.h>
 
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +23,20 @@
 namespace striker::host {
 
 [[nodiscard]] can_frame to_wire(const can::Frame& frame);
+
+// What the kernel tells beside a frame (SO_TIMESTAMPNS, SO_RXQ_OVFL).
+struct Reception {
+  std::int64_t stamp_ns = 0;  // by CLOCK_REALTIME; 0 without a stamp
+  std::uint32_t dropped = 0;  // by this socket since it was made, as its queue was full
+};
+[[nodiscard]] Reception reception_of(msghdr& message);
+
+// Room for both.
+inline constexpr std::size_t reception_space =
+    CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
+
+// Whole milliseconds, 0 to 255; a time to come is 0.
+[[nodiscard]] std::uint8_t age_ms(std::int64_t from_ns, std::int64_t to_ns);
 
 class CanSocket {
  public:
@@ -34,7 +50,7 @@ class CanSocket {
   // gone throws.
   bool send(const can::Frame& frame);
 
-  // The next frame that waits, or nothing. Error frames are taken note of, not returned.
+  // The next frame that waits, with its age, or nothing. Error frames are taken note of, not returned.
   std::optional<can::Frame> receive();
 
   // True when something can be received; false at the timeout or at a signal.
@@ -45,6 +61,10 @@ class CanSocket {
   [[nodiscard]] can::BusHealth health() {
     return std::exchange(went_off_, false) ? can::BusHealth::bus_off : health_;
   }
+
+  // Frames that the socket's queue did not hold, since this was asked last.
+  [[nodiscard]] std::uint32_t lost() { return std::exchange(lost_, 0); }
+  void note_dropped(std::uint32_t since_made);
 
   // For other calls on this socket: its file descriptor, and what came as a frame, or nothing for an error
   // frame, which is taken note of.
@@ -57,6 +77,8 @@ class CanSocket {
   std::string interface_;
   int socket_ = -1;
   can::BusHealth health_ = can::BusHealth::active;
+  std::uint32_t dropped_ = 0;
+  std::uint32_t lost_ = 0;
   bool went_off_ = false;  // since `health` was asked
 };
 

@@ -63,7 +63,7 @@ class ClockTicks {
     return Tick{.number = last_.wake.tick,
                 .frames = received.frames,
                 .timing = window_.message(),
-                .port_fault = overrun ? core::Fault::overrun : core::Fault::none};
+                .port_faults = overrun ? core::set_of(core::Fault::overrun) : 0};
   }
 
   void end(const can::FrameList& sent) { window_.restart_if_among(sent); }

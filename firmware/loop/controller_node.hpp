@@ -7,8 +7,12 @@
 //
 //   ControllerNode<core::Controller<core::Pilot<policy::kick>>, can::StrikerDrives> node(robot);
 //   can::FrameList frames;
-//   node.step({.number = tick, .frames = received}, frames);   // then send `frames` in their order
+//   node.step({.number = tick, .frames = received}, {}, frames);
+//
+// Nobody sends what it makes as it is: GatedNode puts the command gate behind it.
 #pragma once
+
+#include <algorithm>
 
 #include "firmware/can/drives/drive_protocol.hpp"
 #include "firmware/can/frame_list.hpp"
@@ -19,27 +23,41 @@
 
 namespace striker::loop {
 
+// What the command gate did, for telemetry (firmware/safety/command_gate.hpp).
+struct GateReport {
+  std::uint32_t limits = 0;
+  std::uint32_t blocked = 0;
+};
+
 template <class ControllerType, can::DriveProtocol DrivesType>
 class ControllerNode {
  public:
   using Drives = DrivesType;
 
-  explicit constexpr ControllerNode(const core::RobotProfile& robot) : controller_(robot) {}
+  // `seed` begins the controller's sequence of challenges; 0 is for simulations (core/consent.hpp).
+  explicit constexpr ControllerNode(const core::RobotProfile& robot, std::uint32_t seed = 0)
+      : controller_(robot, seed) {}
 
   // Replaces what is in `frames`.
-  void step(const Tick& tick, can::FrameList& frames) {
+  void step(const Tick& tick, const GateReport& gate, can::FrameList& frames) {
     if (tick.restart) {
       restart();
     }
+    lost_frames_ = std::min(lost_frames_ + tick.lost_frames, greatest_count);
     frames.clear();
     core::Actions actions;
     controller_.step({.tick = tick.number,
                       .percepts = receiver_.take(tick.frames, tick.number, drives_),
-                      .port_fault = tick.port_fault,
+                      .port_faults = tick.port_faults,
                       .stop = tick.stop},
                      actions);
-    reporter_.report(tick.number, actions, receiver_.ignored(), tick.timing, ControllerType::Pilot::identity,
-                     frames);
+    reporter_.report(tick.number, actions, receiver_.ignored(),
+                     {.timing = tick.timing,
+                      .limits = gate.limits,
+                      .blocked = gate.blocked,
+                      .lost_frames = lost_frames_,
+                      .repeat_fault = tick.repeat_fault},
+                     ControllerType::Pilot::identity, frames);
     drives_.put(actions.drive, frames);
   }
 
@@ -50,13 +68,22 @@ class ControllerNode {
   static constexpr std::size_t end_of_tick = 1;  // lockstep adds it
   static_assert(can::Reporter::most_frames + Drives::sends.size() + end_of_tick <= can::FrameList::capacity);
 
-  // Apart from `step`, whose stack would hold the new node too.
-  [[gnu::noinline]] void restart() { *this = ControllerNode(controller_.robot()); }
+  static constexpr std::uint32_t greatest_count = 255;
+
+  // Apart from `step`, whose stack would hold the new parts too.
+  [[gnu::noinline]] void restart() {
+    receiver_ = {};
+    drives_ = {};
+    reporter_ = {};
+    lost_frames_ = 0;
+    controller_.begin_anew();
+  }
 
   can::Receiver receiver_;
   Drives drives_;
   ControllerType controller_;
   can::Reporter reporter_;
+  std::uint32_t lost_frames_ = 0;
 };
 
 }  // namespace striker::loop

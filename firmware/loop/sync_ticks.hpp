@@ -5,11 +5,16 @@
 // ends with EndOfTick(t). Sync(0) starts logical time anew, with a controller fresh from boot, so that one
 // process serves one simulation after another with the same answers.
 //
-// Only the port knows wall-clock time: it calls `overdue` when no Sync has come for its time-out, and the next
-// turn is a tick of its own, at the last tick's time, with the fault sync_lost. A bus that goes off does the
-// same.
+// Logical time rises, by at most `greatest_leap_ticks`. A Sync that stands still or goes back is ignored, so that a
+// frame which came twice does no harm; several of them are the fault sync_invalid, as is a leap: time that does
+// not pass, or two simulators.
+//
+// Only the port knows wall-clock time: it calls `overdue` when no Sync has come for its time-out, and again every
+// 100 ms, and the next turn is a tick of its own, at the last tick's time, with the fault sync_lost. A bus that goes
+// off does the same.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,10 +32,10 @@ namespace striker::loop {
 class SyncTicks {
  public:
   // A Sync has come at all.
-  [[nodiscard]] bool running() const { return counter_.seen; }
+  [[nodiscard]] bool running() const { return running_; }
 
-  // No Sync has come for too long: once until the next one.
-  void overdue() { overdue_ = running() && !told_overdue_; }
+  // No Sync has come for too long.
+  void overdue() { overdue_ = running_; }
 
   template <class BusType>
   std::optional<Tick> next(BusType& bus) {
@@ -45,6 +50,7 @@ class SyncTicks {
   void end(can::FrameList& sent) {
     if (answers_sync_) {
       count_ = 0;  // a tick of the port's own took none of them
+      lost_ = 0;
       sent.add(
           can::send(can::EndOfTick{.tick = static_cast<std::int32_t>(tick_ & low_31_bits)}, end_counter_));
     }
@@ -58,32 +64,80 @@ class SyncTicks {
  private:
   static constexpr std::uint32_t low_31_bits = 0x7FFFFFFF;
 
-  // More than any tick brings; beyond it frames are dropped, and the receive checks notice the gap.
+  // More than any bus brings in a tick. Beyond it frames are lost and counted; an emergency stop is not.
   static constexpr std::size_t most_frames = 32;
+
+  static constexpr std::uint32_t greatest_leap_ticks = 1'000;
+
+  // Errors weigh four times what a good Sync takes back.
+  static constexpr std::uint32_t error_weight = 4;
+  static constexpr std::uint32_t error_limit = 3 * error_weight;
 
   // The tick that this frame ends the wait for, if it is a Sync.
   std::optional<Tick> take(const can::Frame& frame) {
     if (!can::is<can::Sync>(frame)) {
-      if (count_ < most_frames) {
-        frames_[count_++] = frame;
-      }
+      keep(frame);
       return std::nullopt;
     }
     can::Sync sync;
-    can::ReceiveCounter anew;
-    const bool restart = can::receive(frame, anew, sync) == can::Verdict::accepted && sync.tick == 0;
-    if (restart) {
-      *this = {};
-      counter_ = anew;
-    } else if (can::receive(frame, counter_, sync) != can::Verdict::accepted) {
-      return std::nullopt;
+    if (can::receive(frame, sync) != can::Verdict::accepted) {
+      return ignore();
+    }
+    if (sync.tick == 0) {
+      forget_all_but_stop();
+      return begin(0, {.restart = true});
     }
     // The wire carries 31 bits of the tick: the difference carries it over the wrap.
-    tick_ += (static_cast<std::uint32_t>(sync.tick) - tick_) & low_31_bits;
+    const std::uint32_t ahead = (static_cast<std::uint32_t>(sync.tick) - tick_) & low_31_bits;
+    if (running_ && (ahead == 0 || ahead > low_31_bits / 2)) {
+      return ignore();
+    }
+    const bool leaps = running_ && ahead > greatest_leap_ticks;
+    errors_ -= errors_ == 0 ? 0 : 1;
+    return begin(ahead, {.port_faults = leaps ? core::set_of(core::Fault::sync_invalid) : 0});
+  }
+
+  void keep(const can::Frame& frame) {
+    if (count_ < most_frames) {
+      frames_[count_++] = frame;
+    } else {
+      ++lost_;
+      if (can::is<can::EmergencyStop>(frame)) {
+        frames_.back() = frame;
+      }
+    }
+  }
+
+  void forget_all_but_stop() {
+    const auto kept = std::span(frames_).first(count_);
+    const auto stop = std::find_if(kept.begin(), kept.end(), can::is<can::EmergencyStop>);
+    const auto pressed = stop == kept.end() ? std::nullopt : std::optional(*stop);
+    *this = {};
+    if (pressed) {
+      keep(*pressed);
+    }
+  }
+
+  std::optional<Tick> ignore() {
+    errors_ += error_weight;
+    if (errors_ < error_limit) {
+      return std::nullopt;
+    }
+    errors_ = 0;
+    answers_sync_ = false;
+    return Tick{.number = tick_, .port_faults = core::set_of(core::Fault::sync_invalid)};
+  }
+
+  Tick begin(std::uint32_t ahead, Tick tick) {
+    running_ = true;
+    tick_ += ahead;
     answers_sync_ = true;
     told_overdue_ = false;
     overdue_ = false;
-    return Tick{.number = tick_, .frames = std::span(frames_).first(count_), .restart = restart};
+    tick.number = tick_;
+    tick.frames = std::span(frames_).first(count_);
+    tick.lost_frames = lost_;
+    return tick;
   }
 
   std::optional<Tick> port_tick(can::BusHealth health) {
@@ -93,15 +147,18 @@ class SyncTicks {
       return std::nullopt;
     }
     answers_sync_ = false;
-    told_overdue_ = told_overdue_ || overdue_;
     const core::Fault fault = overdue_ ? core::Fault::sync_lost : core::Fault::bus_off;
+    const bool again = overdue_ && told_overdue_;
+    told_overdue_ = told_overdue_ || overdue_;
     overdue_ = false;
-    return Tick{.number = tick_, .frames = {}, .port_fault = fault};
+    return Tick{.number = tick_, .port_faults = core::set_of(fault), .repeat_fault = again};
   }
 
-  can::ReceiveCounter counter_;
   can::SendCounter end_counter_;
   std::uint32_t tick_ = 0;
+  std::uint32_t errors_ = 0;
+  std::uint32_t lost_ = 0;
+  bool running_ = false;
   bool answers_sync_ = false;
   bool overdue_ = false;
   bool told_overdue_ = false;

@@ -8,18 +8,20 @@
 //   loop.stop();
 //
 // A fault of the port goes into the very step whose torque it concerns: nothing is sent that does not know of
-// it. A bus that is off is such a fault. What the bus does not take is counted.
+// it. A bus that is off or that lost frames is such a fault. What the bus does not take is counted. Every frame
+// passes the command gate before it is sent, and what the gate stopped is a fault in the next step.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <utility>
 
 #include "firmware/can/bus_health.hpp"
 #include "firmware/can/frame_list.hpp"
 #include "firmware/core/robot_profile.hpp"
+#include "firmware/loop/gated_node.hpp"
 #include "firmware/loop/tick.hpp"
-#include "firmware/safety/whitelist.hpp"
 
 namespace striker::loop {
 
@@ -30,8 +32,9 @@ namespace striker::loop {
 template <class Node, class BusType, class Ticks>
 class TickLoop {
  public:
-  constexpr TickLoop(const core::RobotProfile& robot, BusType bus, Ticks ticks)
-      : bus_(std::forward<BusType>(bus)), ticks_(std::forward<Ticks>(ticks)), node_(robot) {}
+  // `seed`: core/consent.hpp.
+  constexpr TickLoop(const core::RobotProfile& robot, BusType bus, Ticks ticks, std::uint32_t seed = 0)
+      : bus_(std::forward<BusType>(bus)), ticks_(std::forward<Ticks>(ticks)), node_(robot, seed) {}
 
   // One tick. False if there was none yet.
   bool turn() {
@@ -39,9 +42,7 @@ class TickLoop {
     if (!tick) {
       return false;
     }
-    if (tick->port_fault == core::Fault::none && bus_.health() == can::BusHealth::bus_off) {
-      tick->port_fault = core::Fault::bus_off;
-    }
+    see_port(*tick);
     last_tick_ = tick->number;
     node_.step(*tick, frames_);
     ticks_.end(frames_);
@@ -56,26 +57,33 @@ class TickLoop {
     send();
   }
 
-  [[nodiscard]] const Node& node() const { return node_; }
+  [[nodiscard]] const Node& node() const { return node_.node(); }
   [[nodiscard]] std::remove_reference_t<BusType>& bus() { return bus_; }
   [[nodiscard]] std::uint64_t dropped_frames() const { return dropped_frames_; }
-  // That the whitelist did not let out: none, as long as the node is sound.
-  [[nodiscard]] std::uint64_t refused_frames() const { return refused_frames_; }
+  [[nodiscard]] const auto& gate() const { return node_.gate(); }
 
  private:
+  void see_port(Tick& tick) {
+    if (bus_.health() == can::BusHealth::bus_off) {
+      tick.port_faults |= core::set_of(core::Fault::bus_off);
+    }
+    tick.lost_frames += bus_.lost();
+    if (tick.lost_frames != 0) {
+      tick.port_faults |= core::set_of(core::Fault::frames_lost);
+    }
+  }
+
   void send() {
-    refused_frames_ += frames_.keep(safety::may_send<typename Node::Drives>);
-    const auto frames = frames_.frames();
+    const std::span<const can::Frame> frames = frames_.frames();
     dropped_frames_ += frames.size() - bus_.try_send(frames);
   }
 
   BusType bus_;
   Ticks ticks_;
-  Node node_;
+  GatedNode<Node> node_;
   can::FrameList frames_;
   std::uint32_t last_tick_ = 0;
   std::uint64_t dropped_frames_ = 0;
-  std::uint64_t refused_frames_ = 0;
 };
 
 }  // namespace striker::loop

@@ -1,74 +1,102 @@
 // SPDX-License-Identifier: Apache-2.0
-// striker-command: the operator's tool. Sends a protected command and waits until the controller's status
-// shows its effect.
+// striker-command: the operator's tool. Sends a protected command, gives consent where the controller asks for it,
+// and waits until fresh statuses show the effect.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
-#include <exception>
-#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include "firmware/can/codec.hpp"
+#include "firmware/can/message_receiver.hpp"
 #include "firmware/host/can_socket.hpp"
 #include "firmware/host/command_line.hpp"
+#include "firmware/host/stop_signal.hpp"
 
 namespace {
 
 using namespace striker;
 using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
 
-constexpr std::array<std::uint16_t, 1> tool_receives = {can::layout<can::Status>.info.id};
+constexpr std::array<std::uint16_t, 3> tool_receives = {
+    can::layout<can::Status>.info.id, can::layout<can::Safety>.info.id, can::layout<can::Challenge>.info.id};
 
-// An operator's tool starts with any counter: of two frames in a row, the second always follows the first.
-// The bus budget counts on their distance.
-template <class Message>
-void send_twice(host::CanSocket& socket, const Message& message) {
-  can::SendCounter counter;
-  socket.send(can::send(message, counter));
-  std::this_thread::sleep_for(std::chrono::milliseconds(can::layout<Message>.info.traffic.distance_ms));
-  socket.send(can::send(message, counter));
-}
+// Longer than the window in which a controller's statuses are believed: what repeats old ones never gets there.
+constexpr int statuses_to_believe = 16;
 
-// The first status that satisfies `wanted`; without one the last that came, or nothing, after the timeout.
-std::optional<can::Status> await_status(host::CanSocket& socket, std::chrono::milliseconds timeout,
-                                        const std::function<bool(const can::Status&)>& wanted) {
-  std::optional<can::Status> last;
-  const auto deadline = Clock::now() + timeout;
-  while (Clock::now() < deadline) {
-    socket.wait(std::chrono::milliseconds(10));
-    while (const auto frame = socket.receive()) {
-      can::Status status;
-      can::ReceiveCounter any;
-      if (can::receive(*frame, any, status) == can::Verdict::accepted) {
-        last = status;
-        if (wanted(status)) {
-          return last;
-        }
-      }
+constexpr milliseconds ask_again{300};
+constexpr milliseconds renew_every{1000};
+
+// What the controller says of itself. `status` is there once statuses have come in sequence for long enough.
+class Controller {
+ public:
+  explicit Controller(host::CanSocket& socket) : socket_(&socket) {}
+
+  void listen(milliseconds limit) {
+    socket_->wait(limit);
+    while (const auto frame = socket_->receive()) {
+      hear(*frame);
     }
   }
-  return last;
-}
 
-std::string describe(const can::Status& status) {
+  [[nodiscard]] bool heard() const { return believed_ >= statuses_to_believe; }
+  [[nodiscard]] const can::Status& status() const { return status_; }
+  [[nodiscard]] core::State state() const { return static_cast<core::State>(status_.state); }
+  [[nodiscard]] bool is_stopped() const {
+    return (static_cast<core::Faults>(safety_.faults) & core::set_of(core::Fault::emergency_stop)) != 0;
+  }
+  // What it asked back, once.
+  std::optional<can::Challenge> take_challenge() { return std::exchange(challenge_, std::nullopt); }
+
+ private:
+  void hear(const can::Frame& frame) {
+    can::Challenge challenge;
+    const auto now = std::chrono::duration_cast<milliseconds>(Clock::now().time_since_epoch()).count();
+    const auto tick = static_cast<std::uint32_t>(now);
+    if (can::is<can::Status>(frame)) {
+      const bool accepted = statuses_.take(frame, tick, status_) == can::Verdict::accepted;
+      believed_ = accepted ? believed_ + 1 : 0;
+    } else if (can::is<can::Safety>(frame)) {
+      can::Safety safety;
+      safety_ = can::receive(frame, safety) == can::Verdict::accepted ? safety : safety_;
+    } else if (can::is<can::Challenge>(frame) && can::receive(frame, challenge) == can::Verdict::accepted) {
+      challenge_ = challenge;
+    }
+  }
+
+  host::CanSocket* socket_;
+  can::MessageReceiver<can::Status> statuses_;
+  can::Status status_;
+  can::Safety safety_;
+  std::optional<can::Challenge> challenge_;
+  int believed_ = 0;  // statuses in a row
+};
+
+std::string describe(const Controller& controller) {
+  const can::Status& status = controller.status();
   return fmt::format(
-      "state {}, fault {}, vision {}, wheels {}, ignored frames: {} wrong length, {} wrong CRC, {} wrong counter, {} out of range",
-      core::name_of(static_cast<core::State>(status.state)),
-      core::name_of(static_cast<core::Fault>(status.fault)), status.vision_ready != 0 ? "ready" : "not ready",
+      "state {}, fault {}{}, vision {}, wheels {}, ignored frames: {} wrong length, {} wrong CRC, {} wrong counter, {} "
+      "out of range",
+      core::name_of(controller.state()), core::name_of(static_cast<core::Fault>(status.fault)),
+      controller.is_stopped() ? ", stopped" : "", status.vision_ready != 0 ? "ready" : "not ready",
       status.wheels_ready != 0 ? "ready" : "not ready", status.wrong_length, status.wrong_crc,
       status.wrong_counter, status.out_of_range);
 }
 
-bool has_effect(const std::string& command, const can::Status& status) {
-  const auto state = static_cast<core::State>(status.state);
+bool has_effect(const std::string& command, const Controller& controller) {
+  if (!controller.heard()) {
+    return false;
+  }
+  const core::State state = controller.state();
   if (command == "arm") {
     return state == core::State::active;
   }
   if (command == "estop") {
-    return state == core::State::fault;
+    return controller.is_stopped();
   }
   if (command == "clear") {
     return state != core::State::fault;
@@ -76,30 +104,91 @@ bool has_effect(const std::string& command, const can::Status& status) {
   return command == "status" || state != core::State::active;
 }
 
-void send_command(host::CanSocket& socket, const std::string& command) {
-  if (command == "estop") {
-    send_twice(socket, can::EmergencyStop{});
-  } else if (command != "status") {
-    const can::Mode mode = command == "arm"      ? can::Mode::arm
-                           : command == "disarm" ? can::Mode::disarm
-                                                 : can::Mode::clear;
-    send_twice(socket, can::ModeCommand{.mode = static_cast<std::int32_t>(mode)});
-  }
-}
+class Tool {
+ public:
+  Tool(host::CanSocket& socket, std::string command)
+      : socket_(&socket), controller_(socket), command_(std::move(command)) {}
 
-int run(const std::string& interface, const std::string& command, std::chrono::milliseconds timeout) {
+  // Until the command's effect is seen, or the limit has passed.
+  bool run(milliseconds limit) {
+    const auto deadline = Clock::now() + limit;
+    auto ask_at = Clock::now();
+    while (Clock::now() < deadline && !host::stop_requested()) {
+      if (Clock::now() >= ask_at) {
+        send();
+        ask_at = Clock::now() + ask_again;
+      }
+      controller_.listen(milliseconds(10));
+      consent();
+      if (has_effect(command_, controller_)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Keeps the controller armed until a stop signal, then disarms it.
+  void hold() {
+    while (!host::stop_requested() && controller_.state() == core::State::active) {
+      mode(can::Mode::renew, 0);
+      for (milliseconds passed{0}; passed < renew_every && !host::stop_requested();
+           passed += milliseconds(10)) {
+        controller_.listen(milliseconds(10));
+      }
+    }
+    mode(can::Mode::disarm, 0);
+  }
+
+  [[nodiscard]] const Controller& controller() const { return controller_; }
+
+ private:
+  void send() {
+    if (command_ == "estop") {
+      socket_->send(can::send(can::EmergencyStop{}, stops_));
+    } else if (command_ != "status") {
+      const can::Mode wanted = command_ == "arm"     ? can::Mode::arm
+                               : command_ == "clear" ? can::Mode::clear
+                                                     : can::Mode::disarm;
+      mode(wanted, 0);
+    }
+  }
+  void mode(can::Mode mode, std::int32_t challenge) {
+    socket_->send(
+        can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode), .challenge = challenge}, modes_));
+  }
+  void consent() {
+    const auto challenge = controller_.take_challenge();
+    const auto asked = command_ == "arm" ? can::Mode::arm : can::Mode::clear;
+    if (challenge && (command_ == "arm" || command_ == "clear") &&
+        challenge->mode == static_cast<std::int32_t>(asked)) {
+      mode(asked, challenge->challenge);
+    }
+  }
+
+  host::CanSocket* socket_;
+  Controller controller_;
+  std::string command_;
+  can::SendCounter modes_;
+  can::SendCounter stops_;
+};
+
+int run(const std::string& interface, const std::string& command, milliseconds timeout, bool hold) {
   host::CanSocket socket(interface, tool_receives);
-  send_command(socket, command);
-  const auto status =
-      await_status(socket, timeout, [&](const can::Status& seen) { return has_effect(command, seen); });
-  if (!status) {
-    fmt::print(stderr, "striker-command: no status on {} within {} ms: is striker-firmware running{}?\n",
+  Tool tool(socket, command);
+  const bool done = tool.run(timeout);
+  if (!tool.controller().heard()) {
+    fmt::print(stderr,
+               "striker-command: no fresh status on {} within {} ms: is striker-firmware running{}?\n",
                interface, timeout.count(), command == "status" ? "" : " (the command was sent)");
     return 2;
   }
-  const bool done = has_effect(command, *status);
   fmt::print(done ? stdout : stderr, "{}{}\n",
-             done ? "" : "striker-command: " + command + " had no effect: ", describe(*status));
+             done ? "" : "striker-command: " + command + " had no effect: ", describe(tool.controller()));
+  if (done && hold) {
+    fmt::print("renewed every second; Ctrl-C disarms\n");
+    std::fflush(stdout);
+    tool.hold();
+  }
   return done ? 0 : 1;
 }
 
@@ -111,15 +200,21 @@ int main(int argc, char** argv) {
       "striker-command");
   std::string interface;
   unsigned timeout_ms = 1000;
+  bool hold = false;
   app.add_option("--can", interface, "CAN interface, for example vcan0")->required();
-  app.add_option("--timeout", timeout_ms, "wait this long for a status, in ms")->capture_default_str();
+  app.add_option("--timeout", timeout_ms, "wait this long for an effect, in ms")
+      ->check(CLI::Range(1, 3600000))
+      ->capture_default_str();
   app.require_subcommand(1);
-  app.add_subcommand("arm", "let the controller drive: wants standby, fresh vision and wheel states");
+  auto* arm = app.add_subcommand(
+      "arm", "let the controller drive, for 10 s: wants standby, fresh vision and wheel states");
+  arm->add_flag("--hold", hold, "renew it until Ctrl-C, then disarm");
   app.add_subcommand("disarm", "torque 0, back to standby");
   app.add_subcommand("estop", "emergency stop: latches a fault, torque 0");
-  app.add_subcommand("clear", "clear the latched fault, if its cause is gone");
+  app.add_subcommand("clear", "clear the latched faults, if their causes are gone");
   app.add_subcommand("status", "print the controller's state");
   return host::run(app, argc, argv, [&] {
-    return run(interface, app.get_subcommands().front()->get_name(), std::chrono::milliseconds(timeout_ms));
+    host::catch_stop_signals();
+    return run(interface, app.get_subcommands().front()->get_name(), milliseconds(timeout_ms), hold);
   });
 }

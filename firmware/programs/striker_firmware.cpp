@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // striker-firmware: the kick controller as a Linux process, on a CAN interface or on a bench in the process.
 #include <fmt/core.h>
+#include <sys/random.h>
 
 #include <CLI/CLI.hpp>
 #include <atomic>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "firmware/can/controller_receives.hpp"
 #include "firmware/can/drives/striker_drives.hpp"
@@ -22,6 +24,7 @@
 #include "firmware/ports/linux/real_time_socket.hpp"
 #include "firmware/ports/linux/run_lockstep.hpp"
 #include "firmware/ports/linux/run_real_time.hpp"
+#include "firmware/ports/linux/stop_identifiers.hpp"
 
 namespace {
 
@@ -33,6 +36,7 @@ struct Options {
   bool in_process = false;
   std::string clock = "sync";
   unsigned sync_timeout_ms = 2000;
+  std::optional<std::uint32_t> challenge_seed;
   std::string scheduler = "fifo";
   int priority = 80;
   std::int64_t runtime_us = 300;
@@ -54,6 +58,21 @@ void define_bus(CLI::App& app, Options& options) {
   app.add_option("--sync-timeout", options.sync_timeout_ms, "sync: fault without a SYNC for this long, in ms")
       ->check(CLI::Range(1, 3600000))
       ->capture_default_str();
+  app.add_option(
+      "--challenge-seed", options.challenge_seed,
+      "what an operator has to confirm follows from it; 0: the same at every start and SYNC(0), for runs "
+      "that are compared byte for byte; left out: drawn at random");
+}
+
+// Seed 0 is the only one that makes a recording fit: it has to be asked for.
+std::uint32_t challenge_seed(const Options& options) {
+  std::uint32_t seed = 0;
+  while (!options.challenge_seed && seed == 0) {
+    if (getrandom(&seed, sizeof seed, 0) != static_cast<ssize_t>(sizeof seed)) {
+      throw std::runtime_error("the kernel has no random numbers for challenges: give --challenge-seed");
+    }
+  }
+  return options.challenge_seed.value_or(seed);
 }
 
 void define_real_time(CLI::App& app, Options& options) {
@@ -151,15 +170,19 @@ void run_on_sync(const Options& options) {
   if (options.in_process) {
     throw std::runtime_error("--in-process has no SYNC: use it with --clock realtime");
   }
-  host::CanSocket socket(options.can, can::controller_receives<can::StrikerDrives>);
+  const std::vector<std::uint16_t> others = all_but_stops(can::controller_receives<can::StrikerDrives>);
+  host::CanSocket socket(options.can, others);
+  host::CanSocket stops(options.can, stop_identifiers);
   print_granted(options, ask_for_real_time(settings_of(options)));
-  const LockstepReport report = run_lockstep(socket, std::chrono::milliseconds(options.sync_timeout_ms));
+  const LockstepReport report = run_lockstep(
+      {socket, stops}, std::chrono::milliseconds(options.sync_timeout_ms), challenge_seed(options));
   fmt::print("striker-firmware: stopped after {} ticks; {} frames dropped\n", report.ticks,
              report.dropped_frames);
 }
 
 void run_on_own_clock(Options options) {
   options.loop.period_ns = options.period_us * 1000;
+  options.loop.challenge_seed = challenge_seed(options);
   const RealTimeSettings settings = settings_of(options);
   std::optional<RealTimeSocket> socket;
   InProcessBus in_process;

@@ -2,7 +2,7 @@
 // What a controller may put on its bus: the messages that the table says it sends, each with its own length, and
 // what its drives are told where they are of another make, which the table does not have.
 //
-// The loop asks for every frame, after everything else and whatever made it. It is other code than what makes
+// The gate asks for every frame, after everything else and whatever made it. It is other code than what makes
 // the frames: it knows identifiers and lengths alone, and nothing of the controller.
 #pragma once
 

@@ -19,8 +19,7 @@ enum class AnswerEnd {
     return AnswerEnd::no;
   }
   can::EndOfTick end;
-  can::ReceiveCounter any;
-  const bool valid = can::receive(frame, any, end) == can::Verdict::accepted;
+  const bool valid = can::receive(frame, end) == can::Verdict::accepted;
   return valid && static_cast<std::uint32_t>(end.tick) == (tick & 0x7FFFFFFFU) ? AnswerEnd::of_this_tick
                                                                                : AnswerEnd::of_another_tick;
 }

@@ -4,9 +4,11 @@
 // controller of its own.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "firmware/loop/built_in_node.hpp"
@@ -39,10 +41,14 @@ class MemoryBus {
     return frames.size();
   }
   [[nodiscard]] can::BusHealth health() const { return health_; }
+  [[nodiscard]] std::uint32_t lost() { return std::exchange(lost_, 0); }
+
   void set_health(can::BusHealth health) { health_ = health; }
+  void lose(std::uint32_t frames) { lost_ += frames; }
 
  private:
   can::BusHealth health_ = can::BusHealth::active;
+  std::uint32_t lost_ = 0;
   std::vector<can::Frame> waiting_;
   std::size_t taken_ = 0;
   std::vector<can::Frame> sent_;
@@ -57,15 +63,23 @@ class InProcessLink final : public ControllerLink {
 
   [[nodiscard]] const auto& controller() const { return loop_.node().controller(); }
 
-  // How the controller's port finds itself on the bus. Frames pass all the same.
+  // For faults of the controller's port: how it finds itself on the bus (frames pass all the same), and how many
+  // frames it could not keep.
   void set_health(can::BusHealth health) { loop_.bus().set_health(health); }
+  void lose(std::uint32_t frames) { loop_.bus().lose(frames); }
 
-  // The controller's node as it lies in memory: for faults of it.
-  [[nodiscard]] std::span<std::byte> node_memory() {
-    return std::as_writable_bytes(std::span(const_cast<loop::BuiltInNode*>(&loop_.node()), 1));
+  // For faults of its memory: the controller's node and its command gate as they lie there.
+  [[nodiscard]] std::array<std::span<std::byte>, 2> memory() {
+    return {writable(loop_.node()), writable(loop_.gate())};
   }
 
  private:
+  // The loop shows its parts as constants; it is this object's own.
+  template <class Part>
+  static std::span<std::byte> writable(const Part& part) {
+    return std::as_writable_bytes(std::span(const_cast<Part*>(&part), 1));
+  }
+
   loop::TickLoop<loop::BuiltInNode, MemoryBus, loop::SyncTicks> loop_{loop::built_in_robot, {}, {}};
 };
 

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "firmware/host/stop_signal.hpp"
@@ -22,23 +24,44 @@ constexpr milliseconds start_retry{200};
 constexpr milliseconds unanswered_tick{1};
 constexpr milliseconds silence{20};
 
-// A full queue in lockstep means a peer that does not read: the frame is lost as on a real bus.
-void send_all(host::CanSocket& socket, std::span<const can::Frame> frames) {
-  for (const can::Frame& frame : frames) {
-    socket.send(frame);
-  }
-}
+constexpr auto simulator_receives = [] {
+  std::array<std::uint16_t, controller_identifiers.size() + 1> identifiers{};
+  *std::copy(controller_identifiers.begin(), controller_identifiers.end(), identifiers.begin()) =
+      can::layout<can::Sync>.info.id;
+  return identifiers;
+}();
 
 }  // namespace
 
+BusEnd::BusEnd(const std::string& interface)
+    : interface_(interface), socket_(interface, simulator_receives) {}
+
+// A full queue in lockstep means a peer that does not read: the frame is lost as on a real bus.
+void BusEnd::send(std::span<const can::Frame> frames) {
+  for (const can::Frame& frame : frames) {
+    socket_.send(frame);
+  }
+}
+
+std::optional<can::Frame> BusEnd::receive() {
+  const auto frame = socket_.receive();
+  if (frame) {
+    if (const auto problem = watch_.problem_of(*frame)) {
+      throw std::runtime_error(fmt::format(
+          "can:{}: {} on this bus: stop it, or use an interface of its own for each", interface_, *problem));
+    }
+  }
+  return frame;
+}
+
 LockstepLink::LockstepLink(const std::string& interface, const SocketCanOptions& options)
-    : socket_(interface, controller_identifiers), options_(options) {}
+    : bus_(interface), options_(options) {}
 
 void LockstepLink::send(std::uint32_t tick, std::span<const can::Frame> frames) {
   if (tick == 0) {
     first_.assign(frames.begin(), frames.end());
   }
-  send_all(socket_, frames);
+  bus_.send(frames);
 }
 
 void LockstepLink::collect(std::uint32_t tick, std::vector<can::Frame>& answer) {
@@ -60,8 +83,9 @@ bool LockstepLink::await_answer(std::uint32_t tick, microseconds timeout, std::v
   const std::size_t begin = answer.size();
   const auto deadline = Clock::now() + timeout;
   while (true) {
-    while (const auto frame = socket_.receive()) {
+    while (const auto frame = bus_.receive()) {
       answer.push_back(*frame);
+      answer.back().age_ms = 0;  // in lockstep a frame is as old as logical time says
       const AnswerEnd end = end_of_answer(*frame, tick);
       if (end == AnswerEnd::of_this_tick) {
         return true;
@@ -75,7 +99,7 @@ bool LockstepLink::await_answer(std::uint32_t tick, microseconds timeout, std::v
       answer.resize(begin);
       return false;
     }
-    socket_.wait(rest);
+    bus_.wait(rest);
   }
 }
 
@@ -88,30 +112,30 @@ void LockstepLink::await_start(std::vector<can::Frame>& answer) {
                       "--clock sync' on the same interface, or use --bus inproc",
                       duration_cast<std::chrono::seconds>(options_.start_timeout).count()));
     }
-    send_all(socket_, first_);
+    bus_.send(first_);
   }
 }
 
 void LockstepLink::listen_for_return(std::uint32_t tick) {
-  if (!socket_.wait(unanswered_tick)) {
+  if (!bus_.wait(unanswered_tick)) {
     return;
   }
-  while (socket_.wait(silence)) {
-    while (socket_.receive()) {
+  while (bus_.wait(silence)) {
+    while (bus_.receive()) {
     }
   }
   answered_ = true;
   fmt::print(stderr, "striker-sil: the controller answers again, from tick {}\n", tick + 1);
 }
 
-FreeRunningLink::FreeRunningLink(const std::string& interface) : socket_(interface, controller_identifiers) {}
+FreeRunningLink::FreeRunningLink(const std::string& interface) : bus_(interface) {}
 
 void FreeRunningLink::send(std::uint32_t, std::span<const can::Frame> frames) {
-  send_all(socket_, frames);
+  bus_.send(frames);
 }
 
 void FreeRunningLink::collect(std::uint32_t, std::vector<can::Frame>& answer) {
-  while (const auto frame = socket_.receive()) {
+  while (const auto frame = bus_.receive()) {
     answer.push_back(*frame);
   }
 }

@@ -8,16 +8,33 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "firmware/host/can_socket.hpp"
 #include "sil/bus/controller_link.hpp"
+#include "sil/bus/peer_watch.hpp"
 
 namespace striker::sil {
 
 struct SocketCanOptions {
   std::chrono::milliseconds answer_timeout{1000};
   std::chrono::milliseconds start_timeout{10000};
+};
+
+// One interface as the simulator sees it. Receiving throws std::runtime_error when the bus turns out to be shared
+// with another simulator, or with two controllers.
+class BusEnd {
+ public:
+  explicit BusEnd(const std::string& interface);
+  void send(std::span<const can::Frame> frames);
+  std::optional<can::Frame> receive();
+  bool wait(std::chrono::microseconds timeout) { return socket_.wait(timeout); }
+
+ private:
+  std::string interface_;
+  host::CanSocket socket_;
+  PeerWatch watch_;
 };
 
 class LockstepLink final : public ControllerLink {
@@ -32,7 +49,7 @@ class LockstepLink final : public ControllerLink {
   void await_start(std::vector<can::Frame>& answer);
   void listen_for_return(std::uint32_t tick);
 
-  host::CanSocket socket_;
+  BusEnd bus_;
   SocketCanOptions options_;
   std::vector<can::Frame> first_;  // of tick 0, to be sent again
   bool answered_ = true;
@@ -45,7 +62,7 @@ class FreeRunningLink final : public ControllerLink {
   void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
  private:
-  host::CanSocket socket_;
+  BusEnd bus_;
 };
 
 }  // namespace striker::sil

@@ -82,7 +82,14 @@ Observers make_observers(const KickOptions& options, const Bus& bus) {
   return observers;
 }
 
-KickRun play(const KickOptions& options, const Bus& bus, const Observers& owned) {
+constexpr int exit_emergency_stop = 4;
+
+struct Played {
+  KickRun run;
+  bool emergency_stop;
+};
+
+Played play(const KickOptions& options, const Bus& bus, const Observers& owned) {
   const auto plant = make_plant(plant_kind_of(options.plant).value(), 0, Role::forward);
   StrikerDrives drives;
   ExactCamera camera(0);
@@ -104,14 +111,15 @@ KickRun play(const KickOptions& options, const Bus& bus, const Observers& owned)
   const auto start = std::chrono::steady_clock::now();
   scenario.run(host::stop_requested);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  return {.seed = options.seed,
-          .first_episode = options.first,
-          .plant = options.plant,
-          .pose = options.pose,
-          .policy = scenario.policy(),
-          .simulated_s = scenario.simulated_s(),
-          .wall_s = wall.count(),
-          .episodes = scenario.outcomes()};
+  return {.run = {.seed = options.seed,
+                  .first_episode = options.first,
+                  .plant = options.plant,
+                  .pose = options.pose,
+                  .policy = scenario.policy(),
+                  .simulated_s = scenario.simulated_s(),
+                  .wall_s = wall.count(),
+                  .episodes = scenario.outcomes()},
+          .emergency_stop = scenario.ended_by_emergency_stop()};
 }
 
 void report_bus(std::int64_t bitrate, const TimedBusReport& bus) {
@@ -125,7 +133,7 @@ void report_bus(std::int64_t bitrate, const TimedBusReport& bus) {
 int play_kicks(const KickOptions& options) {
   require_sound(options);
   const Bus bus = open_bus(options);
-  const KickRun run = play(options, bus, make_observers(options, bus));
+  const auto [run, emergency_stop] = play(options, bus, make_observers(options, bus));
   fmt::print("{}", format_table(run, run.episodes.size() <= 50));
   if (bus.timed) {
     report_bus(options.bitrate, bus.timed->report());
@@ -137,6 +145,14 @@ int play_kicks(const KickOptions& options) {
     fmt::print(stderr, "striker-sil: stopped after {} of {} episodes; they are kept\n", run.episodes.size(),
                options.episodes);
     return host::exit_interrupted;
+  }
+  if (emergency_stop) {
+    fmt::print(
+        stderr,
+        "striker-sil: an emergency stop ended the run after {} of {} episodes; they are kept. Only an operator "
+        "clears it: 'striker-command --can IFACE clear'\n",
+        run.episodes.size(), options.episodes);
+    return exit_emergency_stop;
   }
   return 0;
 }

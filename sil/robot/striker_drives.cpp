@@ -21,16 +21,14 @@ void StrikerDrives::take(const can::Frame& frame, std::uint32_t tick) {
   if (!can::is<can::WheelCommand>(frame)) {
     return;
   }
-  receive_counter_.seen = receive_counter_.seen && !cut(tick);
   can::WheelCommand command;
-  if (can::receive(frame, receive_counter_, command) != can::Verdict::accepted) {
+  if (receiver_.take(frame, tick, command) != can::Verdict::accepted) {
     ++ignored_;
     return;
   }
   orders_ = {order_of(command.left_torque_mNm, command.left_set_point_2mm_s),
              order_of(command.right_torque_mNm, command.right_set_point_2mm_s)};
-  command_tick_ = tick;
-  commanded_ = true;
+  command_.feed(tick - frame.age_ms);
 }
 
 void StrikerDrives::report(const RimSpeeds& speeds, std::uint32_t tick, std::vector<can::Frame>& frames) {

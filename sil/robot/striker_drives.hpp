@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drives of Striker's own message table: WheelCommand in, WheelState out, both wheels in one frame.
+// The drives of Striker's own message table: WheelCommand in, WheelState out, both wheels in one frame. Commands
+// are believed as a sequence (firmware/can/e2e_state.hpp): one that is repeated drives nothing.
 #pragma once
 
-#include "firmware/can/codec.hpp"
+#include "firmware/can/message_receiver.hpp"
+#include "firmware/can/messages.hpp"
+#include "firmware/core/freshness.hpp"
 #include "sil/robot/wheel_drives.hpp"
 
 namespace striker::sil {
@@ -14,7 +17,7 @@ class StrikerDrives final : public WheelDrives {
 
   void take(const can::Frame& frame, std::uint32_t tick) override;
   [[nodiscard]] bool cut(std::uint32_t tick) const override {
-    return !commanded_ || tick - command_tick_ >= timeout_ticks;
+    return !command_.within(tick, timeout_ticks - 1);
   }
   [[nodiscard]] const WheelOrders& orders() const override { return orders_; }
   void report(const RimSpeeds& speeds, std::uint32_t tick, std::vector<can::Frame>& frames) override;
@@ -23,11 +26,10 @@ class StrikerDrives final : public WheelDrives {
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
  private:
-  can::ReceiveCounter receive_counter_;
+  can::MessageReceiver<can::WheelCommand> receiver_;
   can::SendCounter send_counter_;
   WheelOrders orders_;
-  std::uint32_t command_tick_ = 0;
-  bool commanded_ = false;
+  core::Freshness command_;  // by when it was received
   std::uint64_t ignored_ = 0;
 };
 

@@ -50,7 +50,8 @@ FaultOutcome outcome_of(const FaultTimeline& timeline) {
 }
 
 void tell(const FaultTimeline& timeline, FaultResult& result) {
-  result.detected_by = timeline.fault().value_or(timeline.drives_cut() ? "drives' time-out" : "");
+  const char* const otherwise = timeline.limited() ? "limit" : "";
+  result.detected_by = timeline.fault().value_or(timeline.drives_cut() ? "drives' time-out" : otherwise);
   result.detected_ms = timeline.detected_ms();
   result.zero_torque_ms = timeline.zero_torque_ms();
   result.outcome = outcome_of(timeline);

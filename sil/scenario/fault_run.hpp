@@ -37,7 +37,7 @@ inline constexpr std::array<std::string_view, 4> fault_outcome_names = {"rides t
 
 // A value that travels as one line of JSON.
 struct FaultResult {
-  std::string detected_by;  // the controller's fault, "drives' time-out", or empty
+  std::string detected_by;  // the controller's fault, "drives' time-out", "limit" of the gate, or empty
   std::optional<std::uint32_t> detected_ms;
   std::optional<std::uint32_t> zero_torque_ms;
   FaultOutcome outcome = FaultOutcome::rides_through;

@@ -8,7 +8,7 @@ namespace striker::sil {
 namespace {
 
 constexpr std::uint32_t picture_ticks = core::decision_period_ticks;  // an AI Soccer frame
-constexpr std::uint32_t boot_ticks = 50;
+constexpr std::uint32_t boot_ticks = 200;
 constexpr std::uint32_t clear_tick = 20;
 constexpr std::uint32_t arm_tick = picture_ticks + 1;
 constexpr std::uint32_t first_decision_tick = 2 * picture_ticks;
@@ -47,8 +47,11 @@ void KickScenario::run(const std::function<bool()>& stop) {
 // Returns false if it was stopped.
 bool KickScenario::boot(const std::function<bool()>& stop) {
   while (tick_ < boot_ticks) {
+    if (tick_ % picture_ticks == 0) {
+      seat_->take_picture(world_);
+    }
     run_tick();
-    if (stop()) {
+    if (stop() || operator_.controller_is_stopped()) {
       return false;
     }
   }
@@ -70,7 +73,7 @@ bool KickScenario::play_episode(std::uint64_t episode, const std::function<bool(
       seat_->take_picture(world_);
     }
     run_tick();
-    if (stop()) {
+    if (stop() || operator_.controller_is_stopped()) {
       return false;
     }
   }
@@ -101,7 +104,7 @@ void KickScenario::place(std::uint32_t episode_tick, const KickStart& start) {
 void KickScenario::give_orders(std::uint32_t episode_tick) {
   if (episode_tick == 0) {
     seat_->queue(operator_.order(can::Mode::disarm));
-  } else if (episode_tick == clear_tick && operator_.controller_faulty()) {
+  } else if (episode_tick == clear_tick && operator_.controller_fault() != core::Fault::none) {
     seat_->queue(operator_.order(can::Mode::clear));
   } else if (episode_tick == arm_tick) {
     seat_->queue(operator_.order(can::Mode::arm));
@@ -112,6 +115,9 @@ void KickScenario::give_orders(std::uint32_t episode_tick) {
 void KickScenario::run_tick() {
   for (Observer* observer : observers_) {
     observer->begin_tick();
+  }
+  if (const auto confirmation = operator_.confirmation()) {
+    seat_->queue(*confirmation);
   }
   seat_->begin_tick(tick_);
   seat_->end_tick(tick_);

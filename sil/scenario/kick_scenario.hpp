@@ -5,7 +5,9 @@
 // An episode takes 2,200 ticks: disarm and the first picture; 50 ticks later the second, then arm; 50 later
 // the third, which is decision 0 and starts the ball; 40 decisions; 100 ticks to see the ball leave. Until
 // decision 0 the robot is held and the ball led along its path. A latched fault is cleared before arming.
-// Tick 0 is SYNC alone, and the first episode begins at tick 50.
+// Arming and clearing take two steps: the controller's challenge is confirmed in the tick after it came. An emergency
+// stop is never cleared: it ends the run. The boot takes 200 ticks with pictures, until the controller believes its
+// camera; tick 0 is SYNC and a picture.
 #pragma once
 
 #include <cstdint>
@@ -44,6 +46,9 @@ class KickScenario {
   [[nodiscard]] const std::vector<KickOutcome>& outcomes() const { return outcomes_; }
   [[nodiscard]] double simulated_s() const { return tick_ * tick_s; }
   [[nodiscard]] const std::string& policy() const { return operator_.policy(); }
+
+  // Why the run ended before its last episode, if it was not `stop`.
+  [[nodiscard]] bool ended_by_emergency_stop() const { return operator_.controller_is_stopped(); }
 
  private:
   bool boot(const std::function<bool()>& stop);

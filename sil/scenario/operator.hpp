@@ -1,27 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operator of one controller: gives mode commands and hears what the controller says of itself.
+// The operator of one controller: gives mode commands, confirms what the controller asks back, and hears what it
+// says of itself. Nobody but a person clears an emergency stop: this operator does not.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
 #include "firmware/can/codec.hpp"
+#include "firmware/core/state.hpp"
 
 namespace striker::sil {
 
 class Operator {
  public:
+  // A disarm or a renewal acts at once. Arming and clearing are requests: `confirmation` follows.
   [[nodiscard]] can::Frame order(can::Mode mode);
   void hear(std::span<const can::Frame> frames);
 
-  // By its last status.
-  [[nodiscard]] bool controller_faulty() const { return faulty_; }
+  // The answer to the controller's challenge, once, if it was for what this operator had asked for.
+  [[nodiscard]] std::optional<can::Frame> confirmation();
+
+  // By its last status and safety report.
+  [[nodiscard]] core::Fault controller_fault() const { return fault_; }
+  [[nodiscard]] bool controller_is_stopped() const;
   // The policy's identity from the last version frame, 8 hexadecimal digits; "unknown" before one came.
   [[nodiscard]] const std::string& policy() const { return policy_; }
 
  private:
+  [[nodiscard]] can::Frame command(can::Mode mode, std::int32_t challenge);
+  void take(const can::Challenge& challenge);
+
   can::SendCounter mode_counter_;
-  bool faulty_ = false;
+  std::optional<can::Mode> asked_;
+  std::int32_t challenge_ = 0;  // to be confirmed; 0: none
+  core::Fault fault_ = core::Fault::none;
+  core::Faults faults_ = 0;
   std::string policy_ = "unknown";
 };
 

@@ -44,7 +44,8 @@ inline constexpr double robot_top_m = 0.090;
 inline constexpr double centre_of_mass_height_m = 0.015;
 inline constexpr double wheel_radius_m = core::forward.wheel_radius_um / 1e6;  // of all roles
 inline constexpr double wheel_thickness_m = 0.004;
-inline constexpr double axle_length_m = 0.14;  // between the wheels' centres
+inline constexpr double axle_length_m =
+    core::forward.axle_length_um / 1e6;  // of all roles, between the wheels' centres
 inline constexpr double skid_radius_m = 0.002;
 inline constexpr double skid_offset_m = 0.071;  // front and rear, along the heading
 

@@ -28,7 +28,7 @@ void expect_equal(const Message& a, const Message& b) {
 
 template <class Message>
 bool is_protected() {
-  return layout<Message>.info.data_id != unprotected;
+  return layout<Message>.info.data_ids != unprotected;
 }
 
 // Calls check.operator()<Message>() for every message of the table.
@@ -63,7 +63,7 @@ TEST(Codec, ValuesOutsideARangeAreSentAsItsNearestEnd) {
 TEST(Codec, EveryErrorOfUpToThreeBitsIsFound) {
   std::mt19937 random(2);
   for_each_message([&]<class Message>() {
-    if constexpr (layout<Message>.info.data_id != unprotected) {
+    if constexpr (layout<Message>.info.data_ids != unprotected) {
       SendCounter counter;
       const Frame good = send(draw<Message>(random), counter);
       const unsigned bits = 8U * good.length;
@@ -129,7 +129,7 @@ TEST(Codec, AMessageWithOneSignalOutOfRangeIsIgnoredWhole) {
   SendCounter counter;
   Frame frame = send(ModeCommand{.mode = 0}, counter);
   frame.data[1] = static_cast<std::uint8_t>(frame.data[1] | 0xF0U);
-  protect(frame, layout<ModeCommand>.info.data_id, 1);
+  protect(frame, layout<ModeCommand>.info.data_ids, 1);
   ReceiveCounter memory;
   ModeCommand command{.mode = 1};
   EXPECT_EQ(receive(frame, memory, command), Verdict::out_of_range);

@@ -19,8 +19,8 @@ void print_sample(const Message& message, std::uint8_t counter) {
   constexpr const auto& table = layout<Message>;
   Frame frame = pack(message);
   std::string values;
-  if (table.info.data_id != unprotected) {
-    protect(frame, table.info.data_id, counter);
+  if (table.info.data_ids != unprotected) {
+    protect(frame, table.info.data_ids, counter);
     values = fmt::format(" crc={} counter={}", frame.data[0], counter);
   }
   std::string payload;

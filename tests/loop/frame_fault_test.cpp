@@ -75,7 +75,7 @@ TEST(FrameFault, AnOutOfRangeValueIsIgnoredAndCounted) {
   rig.arm();
   can::Frame mode = can::pack(can::ModeCommand{});
   mode.data[1] = 0x70U;  // mode 7
-  can::protect(mode, can::layout<can::ModeCommand>.info.data_id, 3);
+  can::protect(mode, can::layout<can::ModeCommand>.info.data_ids, 3);
   expect_ignored<can::ModeCommand>(rig, mode, &can::IgnoredFrames::out_of_range, "out of range");
 }
 

@@ -19,24 +19,48 @@ class StrikerDrives {
 
   [[nodiscard]] static bool owns(const Frame& frame) { return is<WheelState>(frame); }
 
-  [[nodiscard]] Verdict take(const Frame& frame, std::uint32_t tick, core::WheelSpeeds& speeds) {
+  [[nodiscard]] Verdict take(const Frame& frame, std::uint32_t tick, DriveReport& report) {
     WheelState state;
     const Verdict verdict = state_.take(frame, tick, state);
     if (verdict == Verdict::accepted) {
-      speeds = {state.left_mm_s, state.right_mm_s};
+      report = {{state.left_mm_s, state.right_mm_s}, state.torque_cut != 0};
     }
     return verdict;
   }
+  [[nodiscard]] bool invalid() const { return state_.invalid(); }
 
   void put(const core::DriveCommand& command, FrameList& frames) {
-    frames.add(send(WheelCommand{.left_torque_mNm = command.torque.left_mNm,
-                                 .right_torque_mNm = command.torque.right_mNm,
-                                 .left_set_point_2mm_s = command.set_point.left_mm_s / 2,
-                                 .right_set_point_2mm_s = command.set_point.right_mm_s / 2},
-                    counter_));
+    frames.add(send(message(command), counter_));
+  }
+
+  [[nodiscard]] static std::optional<std::uint8_t> sequence(const Frame& frame) {
+    constexpr const MessageInfo& info = layout<WheelState>.info;
+    const bool correct = frame.length == info.length && frame.data[0] == protection_crc(frame, info.data_ids);
+    return correct ? std::optional(counter_of(frame)) : std::nullopt;
+  }
+  // What is out of range moves nothing: no drive accepts it.
+  [[nodiscard]] static core::DriveCommand command_of(const Frame& frame) {
+    WheelCommand command;
+    if (unpack(frame, command) != Verdict::accepted) {
+      return {};
+    }
+    return {.torque = {command.left_torque_mNm, command.right_torque_mNm},
+            .set_point = {2 * command.left_set_point_2mm_s, 2 * command.right_set_point_2mm_s}};
+  }
+  static void recode(Frame& frame, const core::DriveCommand& command) {
+    const std::uint8_t counter = counter_of(frame);
+    frame = pack(message(command));
+    protect(frame, layout<WheelCommand>.info.data_ids, counter);
   }
 
  private:
+  static constexpr WheelCommand message(const core::DriveCommand& command) {
+    return {.left_torque_mNm = command.torque.left_mNm,
+            .right_torque_mNm = command.torque.right_mNm,
+            .left_set_point_2mm_s = command.set_point.left_mm_s / 2,
+            .right_set_point_2mm_s = command.set_point.right_mm_s / 2};
+  }
+
   MessageReceiver<WheelState> state_;
   SendCounter counter_;
 };

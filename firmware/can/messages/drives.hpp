@@ -22,7 +22,7 @@ inline constexpr auto layout<WheelCommand> =
                                      .sender = Node::controller,
                                      .period_ms = 1,
                                      .timeout_ms = 10,
-                                     .data_id = 0x5A50,
+                                     .data_ids = 5,
                                      .comment = "Torque and set-point of both wheels."},
                             .signals = {{{.name = "left_torque",
                                           .field = &WheelCommand::left_torque_mNm,
@@ -73,7 +73,7 @@ inline constexpr auto layout<WheelState> = Layout<WheelState, 3>{
              .sender = Node::drives,
              .period_ms = 1,
              .timeout_ms = core::wheel_timeout_ticks,
-             .data_id = 0x5A60,
+             .data_ids = 6,
              .comment = "Measured rim speeds."},
     .signals = {
         {{.name = "torque_cut", .field = &WheelState::torque_cut, .first_bit = 12, .bits = 1, .maximum = 1},

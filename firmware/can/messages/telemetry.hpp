@@ -28,7 +28,7 @@ inline constexpr auto layout<FaultReport> =
                                     .length = 7,
                                     .sender = Node::controller,
                                     .period_ms = 100,
-                                    .data_id = 0x5A20,
+                                    .data_ids = 2,
                                     .comment = "At the fault, then while it is latched.",
                                     .traffic = on_changes(2, 2)},
                            .signals = {{{.name = "code",
@@ -63,7 +63,7 @@ inline constexpr auto layout<Status> = Layout<Status, 8>{
              .sender = Node::controller,
              .period_ms = 10,
              .timeout_ms = 100,
-             .data_id = 0x5B00,
+             .data_ids = 9,
              .comment = "State, latched fault, ignored frames.",
              .traffic = on_changes(1, 3)},
     .signals = {
@@ -93,6 +93,42 @@ inline constexpr auto layout<Status> = Layout<Status, 8>{
           .first_bit = 57,
           .bits = 1,
           .maximum = 1}}}};
+
+// What the gate holds back at present: bits of `Safety::limits`.
+inline constexpr std::uint32_t limit_torque = 1U << 0U;
+inline constexpr std::uint32_t limit_slew = 1U << 1U;
+inline constexpr std::uint32_t limit_set_point = 1U << 2U;
+
+struct Safety {
+  std::int32_t limits = 0;       // limit_...: active in the last tick
+  std::int32_t faults = 0;       // every fault since the last clear: bit (code) of core::Fault
+  std::int32_t blocked = 0;      // commands that the gate did not let out since boot; stays at 255
+  std::int32_t lost_frames = 0;  // that the port could not keep since boot; stays at 255
+};
+
+template <>
+inline constexpr auto layout<Safety> = Layout<Safety, 4>{
+    .info = {.name = "Safety",
+             .id = 0x108,
+             .length = 8,
+             .sender = Node::controller,
+             .period_ms = 100,
+             .timeout_ms = 1000,
+             .data_ids = 12,
+             .comment = "Every latched fault, active limits, what the gate stopped.",
+             .traffic = on_changes(1, 2)},
+    .signals = {{{.name = "limits", .field = &Safety::limits, .first_bit = 12, .bits = 4, .maximum = 15},
+                 {.name = "faults",
+                  .field = &Safety::faults,
+                  .first_bit = 16,
+                  .bits = 31,
+                  .maximum = greatest_31_bits},
+                 {.name = "blocked", .field = &Safety::blocked, .first_bit = 48, .bits = 8, .maximum = 255},
+                 {.name = "lost_frames",
+                  .field = &Safety::lost_frames,
+                  .first_bit = 56,
+                  .bits = 8,
+                  .maximum = 255}}}};
 
 struct Decision {
   std::int32_t number = 0;  // since arming, low 16 bits

@@ -3,79 +3,97 @@
 
 #include <algorithm>
 
+#include "firmware/core/estimation/plausibility.hpp"
+
 namespace striker::core {
 
 namespace {
 
-// Far beyond the limit of freshness; it keeps every product within 32 bits.
-constexpr std::uint32_t greatest_led_ticks = 1000;
-static_assert(greatest_led_ticks > vision_timeout_ticks);
-
 constexpr std::int32_t picture_period_ms = decision_period_ms;
+
+// Both halves of a picture leave the camera together.
+constexpr std::uint32_t greatest_apart_ticks = 25;
+
+constexpr std::uint32_t distance(std::uint32_t one_tick, std::uint32_t other_tick) {
+  return std::min(one_tick - other_tick, other_tick - one_tick);
+}
 
 }  // namespace
 
-void Estimator::reset() {
-  const Estimator before = *this;
-  *this = Estimator{};
-  robot_speed_mm_s_ = before.robot_speed_mm_s_;
-  led_to_tick_ = before.led_to_tick_;
-}
-
-void Estimator::take(const RobotSighting& robot) {
+void Estimator::take(const RobotSighting& robot, std::uint32_t tick) {
   incoming_.number = robot.picture;
   incoming_.robot_um = robot.position_um;
   incoming_.heading = robot.heading;
-  robot_waits_ = true;
+  robot_tick_ = tick - robot.age_ticks;
+  robot_waits_ = 1;
 }
 
-void Estimator::take(const BallSighting& ball) {
+void Estimator::take(const BallSighting& ball, std::uint32_t tick) {
   ball_picture_ = ball.picture;
   incoming_.ball_um = ball.position_um;
-  ball_waits_ = true;
+  ball_tick_ = tick - ball.age_ticks;
+  ball_waits_ = 1;
 }
 
-void Estimator::take(const WheelSpeeds& wheels) {
-  robot_speed_mm_s_ = (wheels.left_mm_s + wheels.right_mm_s) / 2;
+PictureResult Estimator::end_tick(const RobotProfile& robot, std::uint32_t tick, Odometry& odometry) {
+  if (!pair_is_complete()) {
+    return PictureResult::none;
+  }
+  const PictureResult result = take_picture(robot, odometry);
+  if (result == PictureResult::taken || result == PictureResult::mismatched) {
+    odometry.restart(tick - last_tick_);
+  }
+  return result;
 }
 
-bool Estimator::end_tick(std::uint32_t tick) {
-  if (tick - last_tick_ <= greatest_led_ticks) {
-    travelled_um_ += robot_speed_mm_s_ * static_cast<std::int32_t>(tick - led_to_tick_);
-  }
-  led_to_tick_ = tick;
-  if (!robot_waits_ || !ball_waits_ || incoming_.number != ball_picture_) {
+bool Estimator::pair_is_complete() {
+  if (robot_waits_ == 0 || ball_waits_ == 0 || incoming_.number != ball_picture_ ||
+      distance(robot_tick_, ball_tick_) > greatest_apart_ticks) {
     return false;
   }
-  robot_waits_ = false;
-  ball_waits_ = false;
-  if (has_picture_ && incoming_.number == last_.number) {
-    return false;
-  }
-  take_picture(tick);
+  robot_waits_ = 0;
+  ball_waits_ = 0;
   return true;
 }
 
-void Estimator::take_picture(std::uint32_t tick) {
-  const std::int32_t pictures = (incoming_.number - last_.number) & (picture_numbers - 1);
-  has_velocity_ = has_picture_ && pictures <= greatest_picture_step;
-  if (has_velocity_) {
-    const std::int32_t elapsed_ms = pictures * picture_period_ms;
-    ball_velocity_mm_s_ = {(incoming_.ball_um.x - last_.ball_um.x) / elapsed_ms,
-                           (incoming_.ball_um.y - last_.ball_um.y) / elapsed_ms};
+PictureResult Estimator::take_picture(const RobotProfile& robot, const Odometry& odometry) {
+  const std::uint32_t received_tick =
+      std::max(robot_tick_ - last_tick_, ball_tick_ - last_tick_) + last_tick_;
+  const std::uint32_t elapsed_ticks = received_tick - last_tick_;
+  if (has_picture_ == 0 || elapsed_ticks > vision_timeout_ticks) {
+    has_velocity_ = 0;
+    adopt(received_tick);
+    return PictureResult::taken;
   }
-  last_ = incoming_;
-  last_tick_ = tick;
-  has_picture_ = true;
-  travelled_um_ = 0;
+  const std::int32_t pictures = (incoming_.number - last_.number) & (picture_numbers - 1);
+  if (pictures == 0) {
+    return PictureResult::none;
+  }
+  if (!number_fits(pictures, elapsed_ticks) || !is_possible(robot, last_, incoming_, pictures)) {
+    return PictureResult::implausible;
+  }
+  const bool agrees = wheels_agree(robot, last_, incoming_, odometry);
+  const std::int32_t elapsed_ms = pictures * picture_period_ms;
+  ball_velocity_mm_s_ = {(incoming_.ball_um.x - last_.ball_um.x) / elapsed_ms,
+                         (incoming_.ball_um.y - last_.ball_um.y) / elapsed_ms};
+  has_velocity_ = 1;
+  adopt(received_tick);
+  return agrees ? PictureResult::taken : PictureResult::mismatched;
 }
 
-Estimate Estimator::at(std::uint32_t tick) const {
+void Estimator::adopt(std::uint32_t received_tick) {
+  last_ = incoming_;
+  last_tick_ = received_tick;
+  has_picture_ = 1;
+}
+
+Estimate Estimator::at(std::uint32_t tick, const Odometry& odometry) const {
   const auto led_ticks = static_cast<std::int32_t>(std::min(tick - last_tick_, greatest_led_ticks));
-  const Vector travelled = rotate({travelled_um_, 0}, last_.heading);
+  const BinaryAngle heading = wrap_angle(last_.heading);
+  const Vector travelled = rotate({odometry.travelled_um(), 0}, heading);
   return {{last_.robot_um.x + travelled.x, last_.robot_um.y + travelled.y},
-          last_.heading,
-          robot_speed_mm_s_,
+          heading,
+          odometry.speed_mm_s(),
           {last_.ball_um.x + ball_velocity_mm_s_.x * led_ticks,
            last_.ball_um.y + ball_velocity_mm_s_.y * led_ticks},
           ball_velocity_mm_s_};

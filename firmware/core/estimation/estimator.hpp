@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where robot and ball are, and how they move, from what is perceived: positions from the camera, 50 ms apart
-// and without velocities, and wheel speeds every tick.
+// and without velocities, and wheel speeds every tick (odometry.hpp).
 //
 // The ball's velocity is the difference of the last two complete pictures over the time between their
 // numbers. Between pictures the ball is led on along its velocity, and the robot along its heading by its
 // wheel speeds. Positions in um; a speed in mm/s times a tick of 1 ms is a distance in um.
+//
+// A picture counts from when it was received. One whose number does not fit the time since the last one, or that
+// shows what cannot be (plausibility.hpp), is not taken: a camera whose numbers or positions have gone wrong
+// becomes stale. After `vision_timeout_ticks` without one, the next begins anew, without a velocity.
 //
 // Order within a tick: `reset` if there was a disarm, `take` of what came, `end_tick`, then `at` for that
 // tick. Cost: `at` rotates one vector; everything else is a few additions, two divisions a picture.
@@ -12,21 +16,13 @@
 
 #include <cstdint>
 
-#include "firmware/core/estimation/angle.hpp"
+#include "firmware/core/estimation/odometry.hpp"
+#include "firmware/core/estimation/picture.hpp"
 #include "firmware/core/percepts.hpp"
+#include "firmware/core/robot_profile.hpp"
 #include "firmware/core/tick.hpp"
 
 namespace striker::core {
-
-// With more pictures lost than this between two, no velocity is drawn from them.
-inline constexpr std::int32_t greatest_picture_step = 4;
-
-struct Picture {
-  std::int32_t number = 0;
-  Vector robot_um;
-  BinaryAngle heading = 0;
-  Vector ball_um;
-};
 
 struct Estimate {
   Vector robot_um;
@@ -36,39 +32,49 @@ struct Estimate {
   Vector ball_velocity_mm_s;
 };
 
+enum class PictureResult : std::uint8_t {
+  none,         // no picture was completed in this tick
+  taken,        // one was
+  mismatched,   // one was, and the robot moved otherwise than its wheels since the last
+  implausible,  // one was completed, and cannot be
+};
+
 class Estimator {
  public:
-  // Forgets every picture (the robot or the ball may have been placed elsewhere); the wheel speed stays.
-  void reset();
+  // Forgets every picture: the robot or the ball may have been placed elsewhere.
+  void reset() { *this = {}; }
 
-  void take(const RobotSighting& robot);
-  void take(const BallSighting& ball);
-  void take(const WheelSpeeds& wheels);
+  void take(const RobotSighting& robot, std::uint32_t tick);
+  void take(const BallSighting& ball, std::uint32_t tick);
 
-  // Ends the taking of this tick's percepts. True if a pair of robot and ball was completed in it.
-  bool end_tick(std::uint32_t tick);
+  // Ends the taking of this tick's percepts. The odometry has come to this tick, and begins anew with a picture.
+  PictureResult end_tick(const RobotProfile& robot, std::uint32_t tick, Odometry& odometry);
 
   // Two pictures near enough in time to draw a velocity from.
-  [[nodiscard]] bool has_velocity() const { return has_velocity_; }
+  [[nodiscard]] bool has_velocity() const { return has_velocity_ != 0; }
+  // When the last picture was received.
+  [[nodiscard]] std::uint32_t picture_tick() const { return last_tick_; }
 
-  [[nodiscard]] Estimate at(std::uint32_t tick) const;
+  [[nodiscard]] Estimate at(std::uint32_t tick, const Odometry& odometry) const;
 
  private:
-  void take_picture(std::uint32_t tick);
+  bool pair_is_complete();
+  PictureResult take_picture(const RobotProfile& robot, const Odometry& odometry);
+  void adopt(std::uint32_t received_tick);
 
+  // Whole words, as the state is sealed.
   Picture incoming_;  // robot and ball arrive apart: complete when their numbers agree
-  bool robot_waits_ = false;
-  bool ball_waits_ = false;
+  std::uint32_t robot_waits_ = 0;
+  std::uint32_t ball_waits_ = 0;
+  std::uint32_t robot_tick_ = 0;  // when each was received
+  std::uint32_t ball_tick_ = 0;
   std::int32_t ball_picture_ = 0;
 
   Picture last_;
   std::uint32_t last_tick_ = 0;
-  bool has_picture_ = false;
-  bool has_velocity_ = false;
+  std::uint32_t has_picture_ = 0;
+  std::uint32_t has_velocity_ = 0;
   Vector ball_velocity_mm_s_;
-  std::int32_t travelled_um_ = 0;  // since the last picture
-  std::uint32_t led_to_tick_ = 0;
-  std::int32_t robot_speed_mm_s_ = 0;
 };
 
 }  // namespace striker::core

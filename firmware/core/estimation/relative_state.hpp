@@ -20,7 +20,7 @@ struct RelativeState {
   Vector ball_um;
   std::int32_t robot_speed_mm_s = 0;
   Vector ball_velocity_mm_s;
-  BinaryAngle ball_angle = 0;
+  std::int32_t ball_angle = 0;      // a binary angle
   std::int32_t decisions_left = 0;  // set by the controller: it counts the decisions
 };
 

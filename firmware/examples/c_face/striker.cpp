@@ -9,6 +9,7 @@
 
 #include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/loop/controller_node.hpp"
+#include "firmware/loop/gated_node.hpp"
 #include "firmware/policy/exported/kick.hpp"
 
 namespace {
@@ -16,7 +17,7 @@ namespace {
 using namespace striker;
 
 using Pilot = core::Pilot<policy::kick>;
-using Node = loop::ControllerNode<core::Controller<Pilot>, can::StrikerDrives>;
+using Node = loop::GatedNode<loop::ControllerNode<core::Controller<Pilot>, can::StrikerDrives>>;
 
 constexpr core::RobotProfile robot = core::profile_of(core::forward);
 static_assert(Pilot::suits(robot));

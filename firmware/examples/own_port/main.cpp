@@ -6,6 +6,7 @@
 
 #include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/loop/controller_node.hpp"
+#include "firmware/loop/gated_node.hpp"
 #include "firmware/policy/exported/kick.hpp"
 #include "own_port.hpp"
 
@@ -19,7 +20,7 @@ constexpr core::RobotProfile robot = core::profile_of(core::forward);
 static_assert(Pilot::suits(robot));
 
 // Statics, made by the compiler: no heap, and the linker knows what they take.
-constinit loop::ControllerNode<core::Controller<Pilot>, can::StrikerDrives> node(robot);
+constinit loop::GatedNode<loop::ControllerNode<core::Controller<Pilot>, can::StrikerDrives>> node(robot);
 constinit can::FrameList answer;
 constinit std::array<can::Frame, 24> received;  // more than 1 ms of a 1 Mbit/s bus holds
 

@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
+#include "firmware/can/messages.hpp"
 #include "firmware/loop/bus.hpp"
 #include "firmware/ports/bare_metal/board_clock.hpp"
 #include "firmware/ports/bare_metal/can_bus.hpp"
@@ -21,17 +23,26 @@ class BoardBus {
  public:
   explicit constexpr BoardBus(const BoardClock& clock) : clock_(&clock) {}
 
-  // What finds no room is dropped; the receive checks see the gap.
+  // What finds no room is dropped and counted. After a pause what waits in the controller is as old as the pause, for
+  // all that anybody knows: until it has been emptied.
   void poll() {
     if (handed_out_) {
       handed_out_ = false;
       count_ = 0;
     }
-    can::Frame frame;
-    if (receive_can(frame) && count_ < frames_.size()) {
-      oldest_us_ = count_ == 0 ? clock_->now() : oldest_us_;
-      frames_[count_++] = frame;
+    const BoardClock::Time now_us = clock_->now();
+    const auto pause_us = static_cast<std::uint32_t>(now_us) - static_cast<std::uint32_t>(polled_us_);
+    polled_us_ = now_us;
+    if (pause_us > longest_step_us) {
+      backlog_age_ms_ = static_cast<std::uint8_t>(std::min<std::uint32_t>(pause_us / 1'000U, 255));
     }
+    can::Frame frame;
+    if (!receive_can(frame)) {
+      backlog_age_ms_ = 0;
+      return;
+    }
+    frame.age_ms = backlog_age_ms_;
+    keep(frame);
   }
 
   loop::Received<BoardClock::Time> receive(std::size_t most) {
@@ -49,13 +60,33 @@ class BoardBus {
   }
 
   [[nodiscard]] can::BusHealth health() const { return can_health(); }
+  [[nodiscard]] std::uint32_t lost() { return std::exchange(lost_, 0); }
 
  private:
+  // Between two polls there is at most a step.
+  static constexpr std::uint32_t longest_step_us = 2'000;
+
+  // An emergency stop always finds room.
+  void keep(const can::Frame& frame) {
+    if (count_ < frames_.size()) {
+      oldest_us_ = count_ == 0 ? clock_->now() : oldest_us_;
+      frames_[count_++] = frame;
+      return;
+    }
+    ++lost_;
+    if (can::is<can::EmergencyStop>(frame)) {
+      frames_.back() = frame;
+    }
+  }
+
   const BoardClock* clock_;
   bool handed_out_ = false;  // the frames are the loop's until the next poll
   std::array<can::Frame, most_frames_a_tick> frames_{};
   std::size_t count_ = 0;
   BoardClock::Time oldest_us_ = 0;
+  BoardClock::Time polled_us_ = 0;
+  std::uint32_t lost_ = 0;
+  std::uint8_t backlog_age_ms_ = 0;
 };
 
 static_assert(loop::Bus<BoardBus, BoardClock::Time>);

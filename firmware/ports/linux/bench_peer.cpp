@@ -6,7 +6,10 @@ namespace striker::linux_port {
 namespace {
 
 constexpr std::uint32_t picture_ticks = can::layout<can::VisionPose>.info.period_ms;
-constexpr std::uint32_t operator_ticks = 200;  // longer than an operator's counter is remembered
+
+// A round is a kick: the robot stands at the origin, two pictures later it is armed, 40 decisions, and again.
+constexpr std::int32_t round_pictures = 44;
+constexpr std::uint32_t operator_ticks = 20;
 
 // With a lag of 64 ticks, so that the wheel loops have torque to ask for.
 std::int32_t follow(std::int32_t speed_mm_s, std::int32_t set_point_mm_s) {
@@ -17,9 +20,15 @@ std::int32_t follow(std::int32_t speed_mm_s, std::int32_t set_point_mm_s) {
 
 void BenchPeer::tick(std::int64_t now_ns) {
   while (const auto frame = bus_->receive_from_controller()) {
-    take(*frame);
+    take(*frame, now_ns);
   }
   bus_->send_to_controller(can::send(wheels_, wheel_counter_), now_ns);
+  travelled_um_ += (wheels_.left_mm_s + wheels_.right_mm_s) / 2;
+  if (tick_ % (picture_ticks * round_pictures) == 0) {
+    order(can::Mode::disarm, 0, now_ns);
+    travelled_um_ = 0;
+    wheels_ = {};
+  }
   if (tick_ % picture_ticks == 0) {
     send_picture(now_ns);
   }
@@ -29,34 +38,46 @@ void BenchPeer::tick(std::int64_t now_ns) {
   ++tick_;
 }
 
-void BenchPeer::take(const can::Frame& frame) {
-  can::ReceiveCounter any;
+void BenchPeer::take(const can::Frame& frame, std::int64_t now_ns) {
   can::WheelCommand command;
   can::Status status;
-  if (can::is<can::WheelCommand>(frame) && can::receive(frame, any, command) == can::Verdict::accepted) {
+  can::Challenge challenge;
+  if (can::is<can::WheelCommand>(frame) && can::receive(frame, command) == can::Verdict::accepted) {
     wheels_.left_mm_s = follow(wheels_.left_mm_s, 2 * command.left_set_point_2mm_s);
     wheels_.right_mm_s = follow(wheels_.right_mm_s, 2 * command.right_set_point_2mm_s);
-  } else if (can::is<can::Status>(frame) && can::receive(frame, any, status) == can::Verdict::accepted) {
-    state_ = static_cast<core::State>(status.state);
+  } else if (can::is<can::Status>(frame) && can::receive(frame, status) == can::Verdict::accepted) {
+    status_ = status;
+  } else if (can::is<can::Challenge>(frame) && can::receive(frame, challenge) == can::Verdict::accepted) {
+    order(static_cast<can::Mode>(challenge.mode), challenge.challenge, now_ns);
   }
 }
 
 void BenchPeer::send_picture(std::int64_t now_ns) {
   const auto number = static_cast<std::int32_t>(tick_ / picture_ticks);
-  bus_->send_to_controller(can::send(can::VisionPose{.frame = number % core::picture_numbers}, pose_counter_),
+  bus_->send_to_controller(can::send(can::VisionPose{.frame = number % core::picture_numbers,
+                                                     .x_quarter_mm = travelled_um_ / can::um_per_quarter_mm},
+                                     pose_counter_),
                            now_ns);
   bus_->send_to_controller(can::send(can::VisionBall{.frame = number % core::picture_numbers,
-                                                     .x_quarter_mm = 8000 - 200 * (number % 40)},
+                                                     .x_quarter_mm = 8000 - 150 * (number % round_pictures)},
                                      ball_counter_),
                            now_ns);
 }
 
 void BenchPeer::operate(std::int64_t now_ns) {
-  if (state_ == core::State::standby || state_ == core::State::fault) {
-    const can::Mode mode = state_ == core::State::fault ? can::Mode::clear : can::Mode::arm;
-    bus_->send_to_controller(
-        can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, mode_counter_), now_ns);
+  const auto state = static_cast<core::State>(status_.state);
+  if (state == core::State::fault) {
+    order(can::Mode::clear, 0, now_ns);
+  } else if (state == core::State::standby && status_.vision_ready != 0) {
+    order(can::Mode::arm, 0, now_ns);
   }
+}
+
+void BenchPeer::order(can::Mode mode, std::int32_t challenge, std::int64_t now_ns) {
+  bus_->send_to_controller(
+      can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode), .challenge = challenge},
+                mode_counter_),
+      now_ns);
 }
 
 }  // namespace striker::linux_port

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The other end of an in-process bus: plays drives that follow the set-points with a lag, a camera that sees
-// a ball come closer, and an operator who arms the controller and clears its faults. So every code path of a
-// kick runs, without a world.
+// the robot where its wheels took it and a ball come closer, and an operator who arms the controller for one kick after
+// the other, and clears its faults. So every code path of a kick runs, without a world.
 #pragma once
 
 #include "firmware/can/codec.hpp"
@@ -18,14 +18,16 @@ class BenchPeer {
   void tick(std::int64_t now_ns);
 
  private:
-  void take(const can::Frame& frame);
+  void take(const can::Frame& frame, std::int64_t now_ns);
   void send_picture(std::int64_t now_ns);
   void operate(std::int64_t now_ns);
+  void order(can::Mode mode, std::int32_t challenge, std::int64_t now_ns);
 
   InProcessBus* bus_;
   std::uint32_t tick_ = 0;
   can::WheelState wheels_;
-  core::State state_ = core::State::boot;
+  std::int32_t travelled_um_ = 0;  // in this round
+  can::Status status_;
   can::SendCounter wheel_counter_;
   can::SendCounter pose_counter_;
   can::SendCounter ball_counter_;

@@ -7,8 +7,10 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <ctime>
 #include <optional>
 
+#include "firmware/host/can_socket.hpp"
 #include "firmware/loop/bus.hpp"
 #include "firmware/ports/linux/frame_batch.hpp"
 
@@ -62,20 +64,27 @@ class InProcessBus {
 
   loop::Received<std::int64_t> receive(std::size_t most) {
     batch_.clear();
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const std::int64_t now_ns = now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
     for (std::size_t i = 0; i < std::min<std::size_t>(most, greatest_frames_per_tick); ++i) {
-      const auto stamped = to_controller_.pop();
+      auto stamped = to_controller_.pop();
       if (!stamped) {
         break;
       }
+      stamped->frame.age_ms = host::age_ms(stamped->received_ns, now_ns);
       batch_.add(stamped->frame, stamped->received_ns);
     }
     return batch_.received();
   }
 
   [[nodiscard]] can::BusHealth health() const { return can::BusHealth::active; }
+  [[nodiscard]] std::uint32_t lost() { return lost_.exchange(0, std::memory_order_relaxed); }
 
   bool send_to_controller(const can::Frame& frame, std::int64_t now_ns) {
-    return to_controller_.push({frame, now_ns});
+    const bool kept = to_controller_.push({frame, now_ns});
+    lost_.fetch_add(kept ? 0 : 1, std::memory_order_relaxed);
+    return kept;
   }
   std::optional<can::Frame> receive_from_controller() {
     const auto stamped = from_controller_.pop();
@@ -85,6 +94,7 @@ class InProcessBus {
  private:
   FrameRing to_controller_;
   FrameRing from_controller_;
+  std::atomic<std::uint32_t> lost_ = 0;
   FrameBatch batch_;
 };
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
+#include <optional>
+
+#include "firmware/ports/linux/stop_identifiers.hpp"
 
 namespace striker::linux_port {
 
@@ -22,24 +24,10 @@ std::int64_t now_ns(clockid_t clock) {
   return to_ns(now);
 }
 
-// When the kernel received it, by CLOCK_REALTIME; 0 without a stamp.
-std::int64_t stamp_ns(msghdr& message) {
-  for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
-    if (part->cmsg_level == SOL_SOCKET && part->cmsg_type == SCM_TIMESTAMPNS) {
-      timespec stamp{};
-      std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
-      return to_ns(stamp);
-    }
-  }
-  return 0;
-}
-
 }  // namespace
 
 RealTimeSocket::RealTimeSocket(const std::string& interface, std::span<const std::uint16_t> identifiers)
-    : socket_(interface, identifiers) {
-  const int on = 1;
-  setsockopt(socket_.handle(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+    : socket_(interface, all_but_stops(identifiers)), stops_(interface, stop_identifiers) {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     slots_[i].part = {&slots_[i].wire, sizeof slots_[i].wire};
     messages_[i].msg_hdr.msg_iov = &slots_[i].part;
@@ -77,17 +65,30 @@ void RealTimeSocket::read_calendar() {
 
 loop::Received<std::int64_t> RealTimeSocket::receive(std::size_t most) {
   read_calendar();
-  const std::size_t wanted = std::min(most, slots_.size());
+  batch_.clear();
+  // One stop is as good as many.
+  std::optional<can::Frame> stop;
+  while (const auto frame = stops_.receive()) {
+    stop = frame;
+  }
+  if (stop) {
+    batch_.add(*stop, now_ns(CLOCK_MONOTONIC));
+  }
+  const std::size_t wanted = std::min(most, slots_.size()) - (stop ? 1 : 0);
   for (std::size_t i = 0; i < wanted; ++i) {
     messages_[i].msg_hdr.msg_control = slots_[i].control.data();
     messages_[i].msg_hdr.msg_controllen = slots_[i].control.size();
   }
   const int received =
       recvmmsg(socket_.handle(), messages_.data(), static_cast<unsigned>(wanted), MSG_DONTWAIT, nullptr);
-  batch_.clear();
+  const std::int64_t now = now_ns(CLOCK_MONOTONIC);
   for (std::size_t i = 0; received > 0 && i < static_cast<std::size_t>(received); ++i) {
-    if (const auto frame = socket_.accept(slots_[i].wire)) {
-      batch_.add(*frame, stamp_ns(messages_[i].msg_hdr) - calendar_ns_);
+    const host::Reception reception = host::reception_of(messages_[i].msg_hdr);
+    socket_.note_dropped(reception.dropped);
+    if (auto frame = socket_.accept(slots_[i].wire)) {
+      const std::int64_t received_ns = reception.stamp_ns - calendar_ns_;
+      frame->age_ms = host::age_ms(received_ns, now);
+      batch_.add(*frame, received_ns);
     }
   }
   return batch_.received();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A SocketCAN socket for the real-time loop: one system call receives all the frames of a tick, with the
-// kernel's time stamps, and one sends them.
+// SocketCAN for the real-time loop: one system call receives all the frames of a tick, with the kernel's time
+// stamps, and one sends them. Emergency stops have a socket of their own, which is read first: no other traffic
+// stands before them, and no full queue drops them.
 #pragma once
 
 #include <linux/can.h>
@@ -31,17 +32,19 @@ class RealTimeSocket {
   loop::Received<std::int64_t> receive(std::size_t most);
 
   [[nodiscard]] can::BusHealth health() { return gone_ ? can::BusHealth::bus_off : socket_.health(); }
+  [[nodiscard]] std::uint32_t lost() { return socket_.lost(); }
 
  private:
   struct Slot {
     can_frame wire;
     iovec part;
-    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec))> control;
+    alignas(cmsghdr) std::array<char, host::reception_space> control;
   };
 
   void read_calendar();
 
   host::CanSocket socket_;
+  host::CanSocket stops_;
   std::array<Slot, greatest_frames_per_tick> slots_{};
   std::array<mmsghdr, greatest_frames_per_tick> messages_{};
   std::int64_t calendar_ns_ = 0;  // CLOCK_REALTIME less CLOCK_MONOTONIC

@@ -14,17 +14,23 @@ namespace striker::linux_port {
 
 namespace {
 
-constexpr std::chrono::milliseconds wait_limit{20};
+constexpr std::chrono::milliseconds wait_limit{2};
+constexpr std::chrono::milliseconds fault_report_period{can::layout<can::FaultReport>.info.period_ms};
 
-// A socket as the loop's bus, a frame at a time; in lockstep nothing is measured.
+// Two sockets as the loop's bus, a frame at a time, stops before all others. In lockstep nothing is measured, and a
+// frame is as old as the logical time says.
 class LockstepBus {
  public:
-  explicit LockstepBus(host::CanSocket& socket) : socket_(&socket) {}
+  LockstepBus(host::CanSocket& socket, host::CanSocket& stops) : socket_(&socket), stops_(&stops) {}
 
   void poll() {}
   loop::Received<std::int64_t> receive(std::size_t) {
-    const auto frame = socket_->receive();
+    auto frame = stops_->receive();
+    if (!frame) {
+      frame = socket_->receive();
+    }
     frame_ = frame.value_or(can::Frame{});
+    frame_.age_ms = 0;
     return {.frames = std::span(&frame_, frame ? 1 : 0)};
   }
   std::size_t try_send(std::span<const can::Frame> frames) {
@@ -35,9 +41,11 @@ class LockstepBus {
     return taken;
   }
   [[nodiscard]] can::BusHealth health() { return socket_->health(); }
+  [[nodiscard]] std::uint32_t lost() { return socket_->lost(); }
 
  private:
   host::CanSocket* socket_;
+  host::CanSocket* stops_;
   can::Frame frame_;
 };
 
@@ -45,26 +53,31 @@ static_assert(loop::Bus<LockstepBus, std::int64_t>);
 
 }  // namespace
 
-LockstepReport run_lockstep(host::CanSocket& socket, std::chrono::milliseconds sync_timeout) {
+LockstepReport run_lockstep(const LockstepSockets& sockets, std::chrono::milliseconds sync_timeout,
+                            std::uint32_t seed) {
   using Clock = std::chrono::steady_clock;
   LockstepReport report;
-  LockstepBus bus(socket);
+  LockstepBus bus(sockets.all_but_stops, sockets.stops);
   loop::SyncTicks ticks;
-  loop::TickLoop<loop::BuiltInNode, LockstepBus&, loop::SyncTicks&> loop(loop::built_in_robot, bus, ticks);
+  loop::TickLoop<loop::BuiltInNode, LockstepBus&, loop::SyncTicks&> loop(loop::built_in_robot, bus, ticks,
+                                                                         seed);
   FaultAnnouncer announcer;
   auto last_sync = Clock::now();
+  auto last_told = last_sync;
   while (!host::stop_requested()) {
     while (loop.turn()) {
       report.ticks += ticks.answered_sync() ? 1 : 0;
       last_sync = ticks.answered_sync() ? Clock::now() : last_sync;
     }
-    if (Clock::now() - last_sync > sync_timeout) {
+    const auto now = Clock::now();
+    if (now - last_sync > sync_timeout && now - last_told > fault_report_period) {
+      last_told = now;
       ticks.overdue();
       loop.turn();  // the fault, or a Sync that came just now
       last_sync = ticks.answered_sync() ? Clock::now() : last_sync;
     }
     announcer.announce(loop.node().controller().fault());
-    socket.wait(wait_limit);
+    sockets.all_but_stops.wait(wait_limit);
   }
   loop.stop();
   report.dropped_frames = loop.dropped_frames();

@@ -14,8 +14,15 @@ struct LockstepReport {
   std::uint64_t dropped_frames = 0;  // that the socket did not take
 };
 
-// Without a Sync for `sync_timeout` of wall clock, once they have begun: fault sync_lost, torque 0. An
-// interface that goes away throws std::runtime_error.
-LockstepReport run_lockstep(host::CanSocket& socket, std::chrono::milliseconds sync_timeout);
+// A socket for emergency stops alone: no other traffic stands before them, and no full queue drops them.
+struct LockstepSockets {
+  host::CanSocket& all_but_stops;
+  host::CanSocket& stops;
+};
+
+// Without a Sync for `sync_timeout` of wall clock, once they have begun: fault sync_lost, torque 0, told again every
+// 100 ms. An interface that goes away throws std::runtime_error. `seed`: core/consent.hpp.
+LockstepReport run_lockstep(const LockstepSockets& sockets, std::chrono::milliseconds sync_timeout,
+                            std::uint32_t seed);
 
 }  // namespace striker::linux_port

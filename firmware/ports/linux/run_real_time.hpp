@@ -31,6 +31,7 @@ struct RealTimeOptions {
   std::uint32_t overrun_limit = 500;
   std::uint32_t frames_per_tick = 64;  // up to greatest_frames_per_tick
   std::uint64_t ticks = 0;             // stops after these; 0: a stop signal alone stops
+  std::uint32_t challenge_seed = 0;    // core/consent.hpp
 };
 
 // The loop's clock: CLOCK_MONOTONIC, or a test's.
@@ -78,7 +79,8 @@ void run_real_time(BusType& bus, host::AbsoluteClock& clock, const RealTimeOptio
   LoopClock loop_clock(clock, options.period_ns);
   Ticks ticks(loop_clock,
               {.frames_per_tick = options.frames_per_tick, .overrun_limit = options.overrun_limit});
-  loop::TickLoop<loop::BuiltInNode, BusType&, Ticks&> loop(loop::built_in_robot, bus, ticks);
+  loop::TickLoop<loop::BuiltInNode, BusType&, Ticks&> loop(loop::built_in_robot, bus, ticks,
+                                                           options.challenge_seed);
   const ResourceUse before = thread_resource_use();
   while (!host::stop_requested() && (options.ticks == 0 || timing.ticks < options.ticks)) {
     loop.turn();

@@ -32,7 +32,6 @@ std::unique_ptr<FrameFault> make_frame_fault(const TimedFault& fault, const Rand
     case replay:
     case delay:
     case jitter:
-    case stall:
       return make_held_frames(fault, random);
     case masquerade:
     case duplicate:

@@ -5,7 +5,7 @@
 #include <deque>
 #include <utility>
 
-#include "sil/fault/link/recode.hpp"
+#include "firmware/can/messages.hpp"
 
 namespace striker::sil {
 
@@ -115,46 +115,6 @@ class Replay final : public FrameFault {
   std::size_t sent_ = 0;
 };
 
-// The process stands still. Its socket's queue goes on to fill, and once full loses what comes; the first tick
-// after the stall brings all of it, with its age.
-class Stall final : public FrameFault {
- public:
-  explicit Stall(const TimedFault& fault) : fault_(fault) {}
-
-  void to_controller(std::uint32_t tick, std::vector<can::Frame>& frames) override {
-    if (fault_.lasts(tick)) {
-      for (const can::Frame& frame : frames) {
-        if (fault_.fault.count == 0 || waiting_.size() < fault_.fault.count) {
-          waiting_.push_back({frame, tick});
-        }
-      }
-      frames.clear();
-      return;
-    }
-    if (waiting_.empty()) {
-      return;
-    }
-    std::vector<can::Frame> burst;
-    burst.reserve(waiting_.size() + frames.size());
-    for (const Waiting& late : waiting_) {
-      burst.push_back(late.frame);
-      set_age(burst.back(), tick - late.since);
-    }
-    burst.insert(burst.end(), frames.begin(), frames.end());
-    frames = std::move(burst);
-    waiting_.clear();
-  }
-
- private:
-  struct Waiting {
-    can::Frame frame;
-    std::uint32_t since = 0;
-  };
-
-  TimedFault fault_;
-  std::vector<Waiting> waiting_;
-};
-
 }  // namespace
 
 std::unique_ptr<FrameFault> make_held_frames(const TimedFault& fault, const Random& random) {
@@ -164,8 +124,6 @@ std::unique_ptr<FrameFault> make_held_frames(const TimedFault& fault, const Rand
       return std::make_unique<LateFrames>(fault, random);
     case FaultKind::replay:
       return std::make_unique<Replay>(fault);
-    case FaultKind::stall:
-      return std::make_unique<Stall>(fault);
     default:
       return nullptr;
   }

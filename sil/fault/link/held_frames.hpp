@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames that come at another time than they should: delay, jitter, replay, stall.
+// Frames that come at another time than they should: delay, jitter, replay.
 #pragma once
 
 #include "sil/fault/link/frame_fault.hpp"

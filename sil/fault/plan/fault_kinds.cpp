@@ -122,9 +122,11 @@ constexpr std::array kinds = {
     FaultKindInfo{
         .kind = stall,
         .name = "stall",
-        .place = frames,
-        .does = "the controller's process stands still; what came meanwhile waits in a queue of `count` "
-                "frames (0: endless), the newest beyond it are lost, and comes in one burst",
+        .place = node,
+        .does =
+            "the controller's process stands still; what comes meanwhile waits in a queue of `count` frames "
+            "(0: endless), is lost and counted beyond it, and comes in one burst; stops have a queue "
+            "of their own",
         .in_process = true,
         .count = {0, 1000, 0}},
     FaultKindInfo{.kind = bus_off,

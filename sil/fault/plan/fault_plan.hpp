@@ -22,9 +22,9 @@ struct Fault {
   FaultKind kind = FaultKind::loss;
   std::int32_t from_ms = 0;  // after the first decision of the faulty episode
   std::int32_t until_ms = 0;
-  bool absolute = false;                 // both are ticks of the run instead
+  bool absolute = false;                      // both are ticks of the run instead
   std::optional<std::uint16_t> message = {};  // an identifier; nothing: all
-  std::uint16_t as = 0;                  // masquerade: the identifier that it comes under
+  std::uint16_t as = 0;                       // masquerade: the identifier that it comes under
   FaultyWheel wheel = FaultyWheel::both;
   double probability = 1.0;
   std::uint32_t count = 1;
@@ -40,7 +40,7 @@ struct FaultSetup {
   std::optional<bool> anywhere = {};          // the pose
   std::optional<std::uint64_t> seed = {};     // of episodes and faults
   std::optional<std::uint64_t> episode = {};  // this one only
-  double torque_scale = 1.0;             // what the motors give of what they are told to, 0.5 to 1.5
+  double torque_scale = 1.0;                  // what the motors give of what they are told to, 0.5 to 1.5
 
   bool operator==(const FaultSetup&) const = default;
 };

@@ -156,7 +156,7 @@ void Invariants::hear_status(const can::Frame& frame) {
     commands_since_fault_ = 0;
     clear_asked_ = clear_asked_ && status->fault == no_fault;
   }
-  if (before == emergency && status->fault == no_fault) {
+  if (before != no_fault && status->fault == no_fault) {
     stop_tick_.reset();
   }
   const bool armed = status->state == active_state && (!told_ || told_->state != active_state);

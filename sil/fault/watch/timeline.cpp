@@ -25,6 +25,9 @@ void FaultTimeline::end_tick(const Snapshot& snapshot) {
 
 void FaultTimeline::hear(std::uint32_t tick) {
   for (const can::Frame& frame : parts_.at_controller.from_controller()) {
+    if (const auto safety = read<can::Safety>(frame); safety && tick >= from_ && tick < end_) {
+      limited_ = limited_ || safety->limits != 0;
+    }
     const auto status = read<can::Status>(frame);
     if (!status) {
       continue;

@@ -24,6 +24,8 @@ class FaultTimeline final : public Observer {
   [[nodiscard]] std::optional<std::uint32_t> detected_ms() const { return since(detected_); }
   // The drives' own watchdog has cut the torque in between.
   [[nodiscard]] bool drives_cut() const { return drives_cut_; }
+  // The command gate has held something back.
+  [[nodiscard]] bool limited() const { return limited_; }
   // From then on there was no torque until the episode's end.
   [[nodiscard]] std::optional<std::uint32_t> zero_torque_ms() const { return since(zero_); }
   // It was armed when the fault began; at the episode's end; and later.
@@ -45,6 +47,7 @@ class FaultTimeline final : public Observer {
   std::optional<std::uint32_t> detected_;
   std::optional<std::uint32_t> zero_;
   bool drives_cut_ = false;
+  bool limited_ = false;
   bool armed_before_ = false;
   bool armed_at_end_ = false;
   bool drove_later_ = false;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a protected message as a whole can be believed, from the checks of its last frames: AUTOSAR's E2E
+// state machine (AUTOSAR_SWS_E2ELibrary, "E2E State Machine") over a window of counts.
+//
+//   no_data   no frame with a correct CRC since power-on
+//   init      correct frames come, not yet enough of them
+//   valid     believed: at least `least_correct` of the last `counts` counts came, correct and in order
+//   invalid   was valid; too many were lost, repeated, out of order or wrong
+//
+// The window holds a bit a count: each correct frame shifts it by the counter's advance and sets the newest bit,
+// so that a lost frame leaves a zero, and a counter that jumps back by one leaves fifteen. A repeated and a
+// wrong frame shift in a zero each. Frames are taken in the state valid alone: a message that comes back is
+// believed after `least_correct` steps, not after one.
+//
+// What follows for old frames: a set of fewer than `least_correct` of them, repeated for ever in any order and at
+// any rate, has fewer than `least_correct` distinct counters and is never valid for longer than the window. A
+// recording of a whole run of the counter looks like the sender itself: that is authentication's business.
+//
+// At power-on the window begins with as many ones as leave `least_first` correct steps to go: nothing is armed then.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/can/e2e.hpp"
+
+namespace striker::can {
+
+enum class E2eState : std::uint8_t { no_data, init, valid, invalid };
+
+struct E2eWindow {
+  std::uint8_t counts;         // at most 16
+  std::uint8_t least_correct;  // of them
+  std::uint8_t least_first;    // correct steps after the first frame since power-on
+};
+
+// 1 to 10 ms messages: a quarter may be lost, 12 ms of a 1 ms message bring it back.
+inline constexpr E2eWindow fast_window = {.counts = 16, .least_correct = 12, .least_first = 3};
+// Pictures, 50 ms apart.
+inline constexpr E2eWindow slow_window = {.counts = 8, .least_correct = 6, .least_first = 2};
+
+constexpr E2eWindow window_for(std::uint32_t period_ms) {
+  return period_ms <= 10 ? fast_window : slow_window;
+}
+
+template <E2eWindow limits>
+class E2eMachine {
+ public:
+  // A frame whose CRC is correct. True if its data may be taken.
+  bool take_correct(std::uint8_t counter) {
+    if (state_ == E2eState::no_data) {
+      state_ = E2eState::init;
+      last_ = counter;
+      window_ = (1U << (limits.least_correct - limits.least_first)) - 1;
+      return false;
+    }
+    const std::uint32_t advance = (counter - last_) & (counter_modulus - 1U);
+    last_ = counter;
+    window_ = advance == 0 ? window_ << 1U : window_ << advance | 1U;
+    judge();
+    return advance != 0 && state_ == E2eState::valid;
+  }
+
+  void take_wrong() {
+    window_ <<= 1U;
+    judge();
+  }
+
+  // Nothing came within the message's time-out: what comes next has to earn its belief anew.
+  void forget() {
+    window_ = 0;
+    judge();
+  }
+
+  [[nodiscard]] E2eState state() const { return state_; }
+
+ private:
+  static constexpr std::uint32_t mask = (1U << limits.counts) - 1;
+  static_assert(limits.counts <= counter_modulus && limits.least_first >= 1 &&
+                limits.least_first <= limits.least_correct && limits.least_correct <= limits.counts);
+
+  void judge() {
+    window_ &= mask;
+    const bool enough = ones(window_) >= limits.least_correct;
+    if (enough && state_ != E2eState::no_data) {
+      state_ = E2eState::valid;
+    } else if (state_ == E2eState::valid) {
+      state_ = E2eState::invalid;
+    }
+  }
+
+  // Of 16 bits, without a table or a library call, as small cores have no instruction for it.
+  static constexpr std::uint32_t ones(std::uint32_t bits) {
+    bits -= bits >> 1U & 0x5555U;
+    bits = (bits & 0x3333U) + (bits >> 2U & 0x3333U);
+    bits = (bits + (bits >> 4U)) & 0x0F0FU;
+    return (bits + (bits >> 8U)) & 0x1FU;
+  }
+
+  std::uint32_t window_ = 0;
+  std::uint8_t last_ = 0;
+  E2eState state_ = E2eState::no_data;
+};
+
+}  // namespace striker::can

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/core/estimation/plausibility.hpp"
+
+#include <algorithm>
+
+namespace striker::core {
+
+namespace {
+
+constexpr std::int32_t magnitude(std::int32_t value) {
+  return value < 0 ? -value : value;
+}
+
+constexpr bool beyond(const Vector& from, const Vector& to, std::int32_t limit_um) {
+  return magnitude(to.x - from.x) > limit_um || magnitude(to.y - from.y) > limit_um;
+}
+
+// The wheels may slip, and the robot may be pushed, by this much between two pictures, and by a quarter of the way.
+constexpr std::int32_t slip_um = 45'000;
+constexpr std::int32_t slip_angle = 65536 / 16;
+
+// A rim gains 0.2 m/s in a tick if its wheel is free in the air; a shock on it and a step of the encoder are less.
+constexpr std::int32_t greatest_change_mm_s = 1'000;
+
+constexpr std::uint32_t window_ticks = 16;
+constexpr std::int32_t windows_against = 2;
+
+}  // namespace
+
+bool number_fits(std::int32_t pictures, std::uint32_t elapsed_ticks) {
+  constexpr std::int32_t tolerance_ticks = 45;
+  const auto elapsed = static_cast<std::int32_t>(elapsed_ticks);
+  const auto expected = pictures * static_cast<std::int32_t>(decision_period_ticks);
+  return magnitude(elapsed - expected) <= tolerance_ticks;
+}
+
+bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& to, std::int32_t pictures) {
+  const std::int32_t elapsed_ms = pictures * decision_period_ms;
+  return !beyond(from.robot_um, to.robot_um, robot.overspeed_mm_s * elapsed_ms + greatest_jump_um) &&
+         !beyond(from.ball_um, to.ball_um, greatest_ball_speed_mm_s * elapsed_ms + greatest_jump_um);
+}
+
+// On an arc the way goes along the mean heading, and a curved one is shorter than what the wheels rolled.
+bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to,
+                  const Odometry& odometry) {
+  const BinaryAngle turned = wrap_angle(to.heading - from.heading);
+  const BinaryAngle rolled_turn = wrap_angle(odometry.turned_um() * robot.turn_q12 / 4096);
+  if (magnitude(wrap_angle(turned - rolled_turn)) > slip_angle + magnitude(rolled_turn) / 4) {
+    return false;
+  }
+  const Vector rolled = rotate({odometry.travelled_um(), 0}, wrap_angle(from.heading + turned / 2));
+  const Vector moved = {to.robot_um.x - from.robot_um.x, to.robot_um.y - from.robot_um.y};
+  return !beyond(moved, rolled, slip_um + magnitude(odometry.travelled_um()) / 4);
+}
+
+bool WheelPlausibility::follows(const RobotProfile& robot, Wheel& wheel, std::int32_t measured_mm_s) {
+  // The rim gains 100 / kp mm/s^2 for each mNm, as 100 rad/s is the loops' crossover (RobotProfile::kp_q8), and the
+  // sum counts ms: half of that is 12.8 / kp_q8 for each mNm ms.
+  const std::int32_t gained_mm_s = measured_mm_s - wheel.window_begin_mm_s;
+  const std::int32_t torque_sum = magnitude(wheel.torque_sum_mNm);
+  const bool strong = torque_sum > robot.torque_limit_mNm * static_cast<std::int32_t>(window_ticks) / 2;
+  const bool against = (wheel.torque_sum_mNm > 0) != (gained_mm_s > 0) &&
+                       magnitude(gained_mm_s) * robot.kp_q8 > 13 * torque_sum;
+  wheel.against = strong && against ? wheel.against + 1 : 0;
+  wheel.torque_sum_mNm = 0;
+  wheel.window_begin_mm_s = measured_mm_s;
+  return wheel.against < windows_against;
+}
+
+bool WheelPlausibility::possible(const RobotProfile& robot, std::uint32_t tick, const WheelSpeeds& measured,
+                                 const WheelTorques& torque) {
+  const auto elapsed = static_cast<std::int32_t>(std::min(tick - tick_, wheel_timeout_ticks));
+  const bool jumped =
+      begun_ != 0 && (magnitude(measured.left_mm_s - left_.before_mm_s) > greatest_change_mm_s * elapsed ||
+                      magnitude(measured.right_mm_s - right_.before_mm_s) > greatest_change_mm_s * elapsed);
+  if (begun_ == 0) {
+    left_.window_begin_mm_s = measured.left_mm_s;
+    right_.window_begin_mm_s = measured.right_mm_s;
+  }
+  begun_ = 1;
+  tick_ = tick;
+  left_.before_mm_s = measured.left_mm_s;
+  right_.before_mm_s = measured.right_mm_s;
+  left_.torque_sum_mNm += torque.left_mNm * elapsed;
+  right_.torque_sum_mNm += torque.right_mNm * elapsed;
+  in_window_ += static_cast<std::uint32_t>(elapsed);
+  if (in_window_ < window_ticks) {
+    return !jumped;
+  }
+  in_window_ = 0;
+  const bool left_follows = follows(robot, left_, measured.left_mm_s);
+  return follows(robot, right_, measured.right_mm_s) && left_follows && !jumped;
+}
+
+}  // namespace striker::core

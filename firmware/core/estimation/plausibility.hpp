@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What pictures and wheels cannot be, by themselves and against each other.
+//
+// The limits are physics with room to spare, so that no honest run comes near (tests/core/plausibility_test.cpp and
+// the fault catalogue of striker-sil): they catch what froze, jumped, was reversed or scaled.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/core/actions.hpp"
+#include "firmware/core/estimation/odometry.hpp"
+#include "firmware/core/estimation/picture.hpp"
+#include "firmware/core/robot_profile.hpp"
+#include "firmware/core/tick.hpp"
+
+namespace striker::core {
+
+// A ball that a robot has kicked does at most twice the robot's top speed; beyond this nothing rolls.
+inline constexpr std::int32_t greatest_ball_speed_mm_s = 12'000;
+inline constexpr std::int32_t greatest_jump_um = 50'000;  // beyond what the speed explains
+
+// A picture may be earlier or later than its number says by less than a period.
+[[nodiscard]] bool number_fits(std::int32_t pictures, std::uint32_t elapsed_ticks);
+
+// Robot and ball could have moved from one picture to the next.
+[[nodiscard]] bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& to,
+                               std::int32_t pictures);
+
+// The robot moved and turned as its wheels did.
+[[nodiscard]] bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to,
+                                const Odometry& odometry);
+
+// Each wheel against its own past and against its torque. Sealed: whole words.
+class WheelPlausibility {
+ public:
+  void restart() { *this = {}; }
+
+  // Once for every measurement while armed, with the torque that was commanded before it. False if it cannot be.
+  bool possible(const RobotProfile& robot, std::uint32_t tick, const WheelSpeeds& measured,
+                const WheelTorques& torque);
+
+ private:
+  struct Wheel {
+    std::int32_t before_mm_s = 0;
+    std::int32_t window_begin_mm_s = 0;
+    std::int32_t torque_sum_mNm = 0;  // over the window
+    std::int32_t against = 0;         // windows in a row that went against the torque
+  };
+
+  static bool follows(const RobotProfile& robot, Wheel& wheel, std::int32_t measured_mm_s);
+
+  Wheel left_;
+  Wheel right_;
+  std::uint32_t begun_ = 0;
+  std::uint32_t tick_ = 0;
+  std::uint32_t in_window_ = 0;
+};
+
+}  // namespace striker::core

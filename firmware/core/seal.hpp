@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A checksum over state, so that memory which changes by itself is noticed before it is used.
+//
+// The owner seals its state when it has written it, and compares before it uses it the next time. A sum of
+// words finds every error within one word, a flipped bit among them. Types with padding are refused by the
+// compiler: what a padding byte holds is nobody's promise.
+//
+// Cost: a load and an addition a word.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+
+namespace striker::core {
+
+template <class State>
+[[nodiscard]] constexpr std::uint32_t seal_of(const State& state) {
+  static_assert(std::is_trivially_copyable_v<State> && std::has_unique_object_representations_v<State>,
+                "sealed state has no padding");
+  static_assert(sizeof(State) % sizeof(std::uint32_t) == 0);
+  using Words = std::array<std::uint32_t, sizeof(State) / sizeof(std::uint32_t)>;
+  std::uint32_t sum = 0x5EA1ED00;  // all zero is not a valid state
+  for (const std::uint32_t word : std::bit_cast<Words>(state)) {
+    sum += word;
+  }
+  return sum;
+}
+
+}  // namespace striker::core

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command gate: the last thing between a controller and its bus, on every port. It knows frames and limits
+// alone, keeps its own account of why the wheels may turn, and believes the controller in nothing.
+//
+// A drive command that moves goes out only if the gate itself saw, in frames received:
+//   an arm command that confirms the challenge which it saw go out, and since then neither disarm nor stop nor
+//   a fault of the controller's own; renewed within the dead man's time;
+//   wheel states in sequence within `wheels_limit_ticks`, pictures in sequence within `vision_limit_ticks`.
+// Otherwise the frame is made to say torque 0, counted, and the gate stays shut until a confirmed clear: the loop
+// hands that to the controller as the fault gate_blocked. Torque, slew and set-points beyond the limits are cut to
+// them: that is told (message Safety), and is no fault.
+// What is not on the whitelist does not go out at all (whitelist.hpp).
+//
+// It shares the CRC and the message table with the receiver, and nothing else: a sequence is fresh here after a
+// streak of small steps (`Sequence`), there by a window of counts.
+//
+//   CommandGate<Drives> gate(limits);
+//   gate.take(frames, tick);     // received in this tick, before the controller's step
+//   gate.check(sent, tick);      // what the step wants to send
+//
+// Cost: a CRC for each frame from drives, camera and operator; one command unpacked a tick.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "firmware/can/codec.hpp"
+#include "firmware/can/drives/drive_protocol.hpp"
+#include "firmware/can/frame_list.hpp"
+#include "firmware/can/messages.hpp"
+#include "firmware/safety/sequence.hpp"
+#include "firmware/safety/whitelist.hpp"
+
+namespace striker::safety {
+
+struct GateLimits {
+  std::int32_t torque_mNm;
+  std::int32_t slew_mNm;  // change of a torque from one command to the next
+  std::int32_t set_point_mm_s;
+};
+
+inline constexpr std::uint32_t wheels_limit_ticks = 25;
+inline constexpr std::uint32_t vision_limit_ticks = 200;
+inline constexpr std::uint32_t armed_limit_ticks = 10'100;
+inline constexpr std::uint32_t challenge_limit_ticks = 600;
+
+template <can::DriveProtocol Drives>
+class CommandGate {
+ public:
+  explicit constexpr CommandGate(const GateLimits& limits) : limits_(limits) {}
+
+  void take(std::span<const can::Frame> frames, std::uint32_t tick) {
+    for (const can::Frame& frame : frames) {
+      if (Drives::owns(frame)) {
+        wheels_.take(Drives::sequence(frame), tick - frame.age_ms);
+      } else if (can::is<can::VisionPose>(frame)) {
+        pose_.take(sequence_of<can::VisionPose>(frame), tick - frame.age_ms);
+      } else if (can::is<can::VisionBall>(frame)) {
+        ball_.take(sequence_of<can::VisionBall>(frame), tick - frame.age_ms);
+      } else if (can::is<can::EmergencyStop>(frame)) {
+        shut_ = shut_ || sequence_of<can::EmergencyStop>(frame).has_value();
+      } else if (can::is<can::ModeCommand>(frame)) {
+        take_mode(frame, tick);
+      }
+    }
+  }
+
+  void check(can::FrameList& sent, std::uint32_t tick) {
+    refused_ += sent.keep(may_send<Drives>);
+    active_limits_ = 0;
+    for (can::Frame& frame : sent.frames()) {
+      if (can::is<can::FaultReport>(frame)) {
+        armed_ = false;
+      } else if (can::is<can::Challenge>(frame)) {
+        static_cast<void>(can::receive(frame, challenge_));
+        challenge_tick_ = tick;
+      } else if (std::find(Drives::sends.begin(), Drives::sends.end(), frame.id) != Drives::sends.end()) {
+        check_command(frame, tick);
+      }
+    }
+  }
+
+  // Logical time begins anew: consent ends, a stop does not.
+  void restart() {
+    const bool shut = shut_;
+    *this = CommandGate(limits_);
+    shut_ = shut;
+  }
+
+  // It stopped a command, and was not cleared since.
+  [[nodiscard]] bool has_blocked() const { return blocked_since_clear_; }
+  [[nodiscard]] std::uint32_t blocked() const { return blocked_; }
+  [[nodiscard]] std::size_t refused() const { return refused_; }
+  // can::limit_...: of the last tick.
+  [[nodiscard]] std::uint32_t active_limits() const { return active_limits_; }
+
+ private:
+  template <class Message>
+  static std::optional<std::uint8_t> sequence_of(const can::Frame& frame) {
+    Message message;
+    const bool sound = can::receive(frame, message) == can::Verdict::accepted;
+    return sound ? std::optional(can::counter_of(frame)) : std::nullopt;
+  }
+
+  void take_mode(const can::Frame& frame, std::uint32_t tick) {
+    can::ModeCommand command;
+    if (can::receive(frame, command) != can::Verdict::accepted) {
+      return;
+    }
+    const auto mode = static_cast<can::Mode>(command.mode);
+    if (mode == can::Mode::disarm) {
+      armed_ = false;
+    } else if (mode == can::Mode::renew) {
+      armed_tick_ = tick;
+    } else if (command.challenge != 0) {
+      confirm(command, tick);
+    }
+  }
+
+  // A challenge is good once, and for the mode that was asked for.
+  void confirm(const can::ModeCommand& command, std::uint32_t tick) {
+    const bool fits = command.challenge == challenge_.challenge && command.mode == challenge_.mode &&
+                      tick - challenge_tick_ <= challenge_limit_ticks;
+    challenge_ = {};
+    if (!fits) {
+      return;
+    }
+    const bool arms = command.mode == static_cast<std::int32_t>(can::Mode::arm);
+    armed_ = arms && !shut_;
+    armed_tick_ = tick;
+    shut_ = shut_ && arms;
+    blocked_since_clear_ = blocked_since_clear_ && arms;
+  }
+
+  [[nodiscard]] bool has_cause(std::uint32_t tick) const {
+    return armed_ && !shut_ && tick - armed_tick_ <= armed_limit_ticks &&
+           wheels_.fresh(tick, wheels_limit_ticks) && pose_.fresh(tick, vision_limit_ticks) &&
+           ball_.fresh(tick, vision_limit_ticks);
+  }
+
+  void check_command(can::Frame& frame, std::uint32_t tick) {
+    const core::DriveCommand wanted = Drives::command_of(frame);
+    if (wanted == core::DriveCommand{}) {
+      torque_ = {};
+      return;
+    }
+    core::DriveCommand passed;
+    if (has_cause(tick)) {
+      passed = limited(wanted);
+    } else {
+      shut_ = true;
+      blocked_since_clear_ = true;
+      blocked_ = std::min(blocked_ + 1, 255U);
+    }
+    torque_ = passed.torque;
+    if (!(passed == wanted)) {
+      Drives::recode(frame, passed);
+    }
+  }
+
+  core::DriveCommand limited(const core::DriveCommand& wanted) {
+    return {
+        .torque = {limited(wanted.torque.left_mNm, torque_.left_mNm),
+                   limited(wanted.torque.right_mNm, torque_.right_mNm)},
+        .set_point = {bounded(wanted.set_point.left_mm_s, limits_.set_point_mm_s, can::limit_set_point),
+                      bounded(wanted.set_point.right_mm_s, limits_.set_point_mm_s, can::limit_set_point)}};
+  }
+  std::int32_t limited(std::int32_t wanted_mNm, std::int32_t before_mNm) {
+    const std::int32_t torque_mNm = bounded(wanted_mNm, limits_.torque_mNm, can::limit_torque);
+    return before_mNm + bounded(torque_mNm - before_mNm, limits_.slew_mNm, can::limit_slew);
+  }
+  std::int32_t bounded(std::int32_t value, std::int32_t limit, std::uint32_t name) {
+    const std::int32_t inside = std::clamp(value, -limit, limit);
+    active_limits_ |= inside == value ? 0 : name;
+    return inside;
+  }
+
+  GateLimits limits_;
+  Sequence<12> wheels_;
+  Sequence<5> pose_;
+  Sequence<5> ball_;
+  can::Challenge challenge_;
+  std::uint32_t challenge_tick_ = 0;
+  std::uint32_t armed_tick_ = 0;
+  core::WheelTorques torque_;  // of the last command
+  bool armed_ = false;
+  bool shut_ = false;  // a stop or a blocked command: until a confirmed clear
+  bool blocked_since_clear_ = false;
+  std::uint32_t active_limits_ = 0;
+  std::uint32_t blocked_ = 0;
+  std::size_t refused_ = 0;
+};
+
+}  // namespace striker::safety
