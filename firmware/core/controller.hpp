@@ -168,7 +168,8 @@ class Controller {
     take(inputs.percepts, elapsed, disarm);
     const Order granted = now_.consent.step(now_.tick, inputs.percepts.requests);
     const bool vision_fresh = now_.vigilance.vision_is_fresh();
-    const Faults causes = now_.vigilance.causes(now_.supervisor.state == State::active) | inputs.port_faults |
+    const bool stays_active = now_.supervisor.state == State::active && !disarm;
+    const Faults causes = now_.vigilance.causes(stays_active) | inputs.port_faults |
                           (now_.weights.step() ? 0 : set_of(Fault::policy_corrupt)) |
                           (went_back ? set_of(Fault::clock_invalid) : 0);
     return {.self_test = now_.self_test,
