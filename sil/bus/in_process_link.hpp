@@ -2,6 +2,9 @@
 // The controller in the simulator's own process, stepped by the same Sync frames as over a bus, in the same
 // loop as in the firmware. It steps within `send`; `collect` hands over what it said. A copy of a link is a
 // controller of its own.
+//
+// A port's wall clock is counted in ticks here: without SYNC for `sync_timeout_ticks` the loop is told, and again
+// every 100, as in firmware/ports/linux.
 #pragma once
 
 #include <array>
@@ -58,13 +61,16 @@ static_assert(loop::Bus<MemoryBus, std::int64_t>);
 
 class InProcessLink final : public ControllerLink {
  public:
+  static constexpr std::uint32_t sync_timeout_ticks = 200;
+
   void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
   void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
   [[nodiscard]] const auto& controller() const { return loop_.node().controller(); }
 
-  // For faults of the controller's port: how it finds itself on the bus (frames pass all the same), and how many
-  // frames it could not keep.
+  // For faults of the controller's port: its process stands still, how it finds itself on the bus (frames pass all
+  // the same), and how many frames it could not keep.
+  void stand_still(bool stands) { stands_still_ = stands; }
   void set_health(can::BusHealth health) { loop_.bus().set_health(health); }
   void lose(std::uint32_t frames) { loop_.bus().lose(frames); }
 
@@ -81,6 +87,8 @@ class InProcessLink final : public ControllerLink {
   }
 
   loop::TickLoop<loop::BuiltInNode, MemoryBus, loop::SyncTicks> loop_{loop::built_in_robot, {}, {}};
+  std::uint32_t ticks_without_sync_ = 0;
+  bool stands_still_ = false;
 };
 
 }  // namespace striker::sil

@@ -77,7 +77,7 @@ Play play(const std::vector<TimedFault>& faults, double torque_scale, const Faul
                    .controller = in_process.get()},
                   faults, options.seed, torque_scale);
   const std::uint32_t end = KickScenario::decisions_end(0);
-  Invariants invariants(seat.watched(), loop::built_in_robot, seat.reboots());
+  Invariants invariants(seat.watched(), loop::built_in_robot, seat.reboots(), out_of_reach_of(faults));
   FaultTimeline timeline(seat.watched(), begin_of(faults, end), end);
   const std::array<Observer*, 3> observers = {&seat.clock(), &invariants, &timeline};
   KickScenario scenario({.pose = options.anywhere ? PoseMode::anywhere : PoseMode::origin,

@@ -54,6 +54,7 @@ class Stall final : public FrameFault {
   Stall(const TimedFault& fault, InProcessLink& controller) : fault_(fault), controller_(&controller) {}
 
   void to_controller(std::uint32_t tick, std::vector<can::Frame>& frames) override {
+    controller_->stand_still(fault_.lasts(tick));
     if (fault_.lasts(tick)) {
       for (const can::Frame& frame : frames) {
         keep(frame, tick);

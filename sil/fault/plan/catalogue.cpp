@@ -103,9 +103,10 @@ void add_times(Catalogue& all) {
 void add_replays(Catalogue& all) {
   all.add("WheelState frozen", replay, replayed<can::WheelState>(1));
   all.add("two old WheelStates in turn", replay, replayed<can::WheelState>(2));
-  all.add("64 old WheelStates in turn", replay, replayed<can::WheelState>(64));
+  all.add("a recording of 64 WheelStates", replay, replayed<can::WheelState>(64));
   all.add("WheelCommand frozen", replay, replayed<can::WheelCommand>(1));
-  all.add("16 old WheelCommands in turn", replay, replayed<can::WheelCommand>(16));
+  all.add("two old WheelCommands in turn", replay, replayed<can::WheelCommand>(2));
+  all.add("a recording of 64 WheelCommands", replay, replayed<can::WheelCommand>(64));
   all.add("VisionPose frozen", replay, replayed<can::VisionPose>(1));
   all.add("4 old VisionBalls in turn", replay, replayed<can::VisionBall>(4));
   all.add("ModeCommand stuck", replay, replayed<can::ModeCommand>(1));

@@ -33,7 +33,7 @@ void FaultTimeline::hear(std::uint32_t tick) {
       continue;
     }
     armed_ = status->state == static_cast<std::int32_t>(core::State::active);
-    if (status->fault != 0 && !fault_ && tick >= from_) {
+    if (status->fault != 0 && !fault_ && tick >= from_ && tick < end_) {
       fault_ = core::name_of(static_cast<core::Fault>(status->fault));
       detected_ = tick;
     }
