@@ -26,7 +26,10 @@ bool cause_lasts(Faults latched, const Conditions& conditions) {
   return causes_in(State::standby, conditions) != 0 || (latched & (missing | lasting_faults)) != 0;
 }
 
+// That inputs are missing may follow from something else, which is named then.
 Fault first_of(Faults faults) {
+  constexpr Faults consequences = set_of(Fault::vision_lost) | set_of(Fault::wheel_state_lost);
+  faults = (faults & ~consequences) != 0 ? faults & ~consequences : faults;
   for (unsigned code = 1; code < fault_names.size(); ++code) {
     if ((faults >> code & 1U) != 0) {
       return static_cast<Fault>(code);

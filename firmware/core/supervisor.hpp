@@ -6,7 +6,7 @@
 //
 // Faults latch: the first one is kept apart, and every later one beside it, an emergency stop above all. Clearing
 // is an edge, and is refused while any cause lasts. Only `active` may drive the wheels. Of several causes in one
-// tick the one with the lowest number is the first.
+// tick the one with the lowest number is the first, missing inputs last: they may follow from another.
 #pragma once
 
 #include <cstdint>

@@ -185,7 +185,8 @@ void run_on_own_clock(Options options) {
   options.loop.challenge_seed = challenge_seed(options);
   const RealTimeSettings settings = settings_of(options);
   std::optional<RealTimeSocket> socket;
-  InProcessBus in_process;
+  host::MonotonicClock clock;
+  InProcessBus in_process(clock);
   std::optional<Bench> bench;
   if (options.in_process) {
     bench.emplace(in_process, settings);
@@ -207,7 +208,6 @@ void run_on_own_clock(Options options) {
                                       options.loop.overrun_limit, loop::OverrunLimit::window_ticks));
   print_granted(options, granted);
 
-  host::MonotonicClock clock;
   LoopTiming timing;
   if (socket) {
     run_real_time(*socket, clock, options.loop, timing, fault);

@@ -180,8 +180,8 @@ class CommandGate {
 
   GateLimits limits_;
   Sequence<12> wheels_;
-  Sequence<5> pose_;
-  Sequence<5> ball_;
+  Sequence<3> pose_;
+  Sequence<3> ball_;
   can::Challenge challenge_;
   std::uint32_t challenge_tick_ = 0;
   std::uint32_t armed_tick_ = 0;

@@ -8,12 +8,8 @@ namespace striker::sil {
 namespace {
 
 constexpr std::uint32_t picture_ticks = core::decision_period_ticks;  // an AI Soccer frame
-constexpr std::uint32_t boot_ticks = 200;
 constexpr std::uint32_t clear_tick = 20;
 constexpr std::uint32_t arm_tick = picture_ticks + 1;
-constexpr std::uint32_t first_decision_tick = 2 * picture_ticks;
-constexpr std::uint32_t last_tick = first_decision_tick + kick_decisions * core::decision_period_ticks;
-constexpr std::uint32_t episode_ticks = last_tick + 100;
 
 }  // namespace
 
@@ -46,7 +42,7 @@ void KickScenario::run(const std::function<bool()>& stop) {
 
 // Returns false if it was stopped.
 bool KickScenario::boot(const std::function<bool()>& stop) {
-  while (tick_ < boot_ticks) {
+  while (tick_ < kick_boot_ticks) {
     if (tick_ % picture_ticks == 0) {
       seat_->take_picture(world_);
     }
@@ -64,9 +60,9 @@ bool KickScenario::play_episode(std::uint64_t episode, const std::function<bool(
   snapshot_.episode = episode;
   moving_ = false;
   seat_->reset();
-  for (std::uint32_t episode_tick = 0; episode_tick < episode_ticks; ++episode_tick) {
+  for (std::uint32_t episode_tick = 0; episode_tick < kick_episode_ticks; ++episode_tick) {
     place(episode_tick, start);
-    snapshot_.deciding = episode_tick >= first_decision_tick && episode_tick < last_tick;
+    snapshot_.deciding = episode_tick >= kick_first_decision_tick && episode_tick < kick_last_tick;
     snapshot_.contact = moving_ && episode_.outcome().contact;
     give_orders(episode_tick);
     if (episode_tick % picture_ticks == 0) {
@@ -89,14 +85,14 @@ void KickScenario::place(std::uint32_t episode_tick, const KickStart& start) {
   if (episode_tick == 0) {
     world_.place_robot(0, start.robot);
   }
-  if (episode_tick < first_decision_tick) {
-    world_.place_ball(ball_before(start, (first_decision_tick - episode_tick) * tick_s));
+  if (episode_tick < kick_first_decision_tick) {
+    world_.place_ball(ball_before(start, (kick_first_decision_tick - episode_tick) * tick_s));
     look();
-  } else if (episode_tick == first_decision_tick) {
+  } else if (episode_tick == kick_first_decision_tick) {
     episode_.begin(world_, start);
     look();
     moving_ = true;
-  } else if (episode_tick <= last_tick && episode_tick % core::decision_period_ticks == 0) {
+  } else if (episode_tick <= kick_last_tick && episode_tick % core::decision_period_ticks == 0) {
     episode_.end_decision();
   }
 }

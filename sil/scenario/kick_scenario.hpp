@@ -16,12 +16,20 @@
 #include <string>
 #include <vector>
 
+#include "firmware/core/tick.hpp"
 #include "sil/record/observer.hpp"
 #include "sil/robot/seat.hpp"
 #include "sil/scenario/operator.hpp"
 #include "sil/task/kick_task.hpp"
 
 namespace striker::sil {
+
+// Of the run, then of an episode.
+inline constexpr std::uint32_t kick_boot_ticks = 200;
+inline constexpr std::uint32_t kick_first_decision_tick = 2 * core::decision_period_ticks;
+inline constexpr std::uint32_t kick_last_tick =
+    kick_first_decision_tick + kick_decisions * core::decision_period_ticks;
+inline constexpr std::uint32_t kick_episode_ticks = kick_last_tick + 100;
 
 struct KickPlan {
   PoseMode pose = PoseMode::origin;

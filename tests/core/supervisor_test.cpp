@@ -15,9 +15,9 @@ std::vector<Conditions> all_conditions() {
     for (const SelfTest test : {SelfTest::running, SelfTest::passed, SelfTest::failed}) {
       all.push_back(
           {.self_test = test,
-           .requests = {.arm = (bits & 1U) != 0, .disarm = (bits & 2U) != 0, .clear = (bits & 4U) != 0},
+           .granted = {.arm = (bits & 1U) != 0, .disarm = (bits & 2U) != 0, .clear = (bits & 4U) != 0},
            .emergency_stop = (bits & 8U) != 0,
-           .port_fault = (bits & 128U) != 0 ? Fault::overrun : Fault::none,
+           .causes = (bits & 128U) != 0 ? set_of(Fault::overrun) : 0,
            .vision_fresh = (bits & 16U) != 0,
            .vision_ready = (bits & 48U) == 48,
            .wheels_fresh = (bits & 64U) != 0});
@@ -26,15 +26,24 @@ std::vector<Conditions> all_conditions() {
   return all;
 }
 
+// Every fault alone, and every one that came after another.
 std::vector<Supervisor> all_supervisors() {
-  std::vector<Supervisor> all = {{State::boot, Fault::none},
-                                 {State::self_test, Fault::none},
-                                 {State::standby, Fault::none},
-                                 {State::active, Fault::none}};
-  for (std::uint8_t code = 1; code <= 9; ++code) {
-    all.push_back({State::fault, static_cast<Fault>(code)});
+  std::vector<Supervisor> all = {{.state = State::boot},
+                                 {.state = State::self_test},
+                                 {.state = State::standby},
+                                 {.state = State::active}};
+  for (std::uint8_t first = 1; first < fault_names.size(); ++first) {
+    for (std::uint8_t later = 1; later < fault_names.size(); ++later) {
+      all.push_back({.state = State::fault,
+                     .fault = static_cast<Fault>(first),
+                     .faults = set_of(static_cast<Fault>(first)) | set_of(static_cast<Fault>(later))});
+    }
   }
   return all;
+}
+
+constexpr bool has(Faults faults, Fault fault) {
+  return (faults & set_of(fault)) != 0;
 }
 
 template <class Check>
@@ -50,18 +59,18 @@ TEST(Supervisor, OnlyAnArmRequestWithFreshInputsLeadsToActive) {
   for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
     if (next.state == State::active && now.state != State::active) {
       EXPECT_EQ(now.state, State::standby);
-      EXPECT_TRUE(c.requests.arm && !c.requests.disarm && c.vision_ready && c.wheels_fresh);
+      EXPECT_TRUE(c.granted.arm && !c.granted.disarm && c.vision_ready && c.wheels_fresh);
     }
     if (next.state == State::active) {
-      EXPECT_TRUE(c.vision_fresh && c.wheels_fresh && !c.emergency_stop && !c.requests.disarm);
-      EXPECT_EQ(c.port_fault, Fault::none);
+      EXPECT_TRUE(c.vision_fresh && c.wheels_fresh && !c.emergency_stop && !c.granted.disarm);
+      EXPECT_EQ(c.causes, 0U);
     }
   });
 }
 
 TEST(Supervisor, TheFirstFaultIsKeptUntilItIsCleared) {
   for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
-    if (now.state == State::fault && !c.requests.clear) {
+    if (now.state == State::fault && !c.granted.clear) {
       EXPECT_EQ(next.state, State::fault);
       EXPECT_EQ(next.fault, now.fault);
     }
@@ -69,14 +78,27 @@ TEST(Supervisor, TheFirstFaultIsKeptUntilItIsCleared) {
   });
 }
 
-TEST(Supervisor, AClearIsRefusedWhileTheCauseLasts) {
+TEST(Supervisor, EveryLaterFaultIsKeptBesideTheFirst) {
   for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
-    const bool lasts = now.fault == Fault::self_test_failed ||
-                       (now.fault == Fault::emergency_stop && c.emergency_stop) ||
-                       (now.fault == Fault::vision_lost && !c.vision_fresh) ||
-                       (now.fault == Fault::wheel_state_lost && !c.wheels_fresh) || c.emergency_stop ||
-                       c.self_test == SelfTest::failed || c.port_fault != Fault::none;
-    if (now.state == State::fault && c.requests.clear) {
+    if (next.state == State::fault) {
+      EXPECT_EQ(next.faults & now.faults, now.faults) << "none is forgotten";
+      EXPECT_EQ(next.faults & c.causes, c.causes);
+      EXPECT_TRUE(has(next.faults, next.fault));
+      EXPECT_EQ(c.emergency_stop && !has(next.faults, Fault::emergency_stop), false);
+    } else {
+      EXPECT_EQ(next.faults, 0U);
+    }
+  });
+}
+
+TEST(Supervisor, AClearIsRefusedWhileACauseLasts) {
+  for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
+    const bool lasts = has(now.faults, Fault::self_test_failed) || has(now.faults, Fault::state_corrupt) ||
+                       has(now.faults, Fault::policy_corrupt) || c.emergency_stop ||
+                       (has(now.faults, Fault::vision_lost) && !c.vision_fresh) ||
+                       (has(now.faults, Fault::wheel_state_lost) && !c.wheels_fresh) ||
+                       c.self_test == SelfTest::failed || c.causes != 0;
+    if (now.state == State::fault && c.granted.clear) {
       EXPECT_EQ(next.state == State::fault, lasts);
     }
   });
@@ -99,23 +121,23 @@ TEST(Supervisor, AnEmergencyStopStopsEveryState) {
   });
 }
 
-TEST(Supervisor, APortsFaultStopsEveryStateAndLastsAsLongAsThePortSaysSo) {
+TEST(Supervisor, ACauseStopsEveryStateAndLastsAsLongAsItIsSeen) {
   for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
-    if (c.port_fault != Fault::none) {
+    if (c.causes != 0) {
       EXPECT_EQ(next.state, State::fault);
     }
-    if (now.state != State::fault && c.port_fault != Fault::none && !c.emergency_stop &&
-        c.self_test != SelfTest::failed) {
-      EXPECT_EQ(next.fault, c.port_fault);
+    if (now.state != State::fault && c.causes != 0 && !c.emergency_stop && c.self_test != SelfTest::failed) {
+      EXPECT_EQ(next.fault, Fault::overrun);
     }
   });
 }
 
 TEST(Supervisor, LatchKeepsAnEarlierFault) {
-  const Supervisor faulty{State::fault, Fault::vision_lost};
-  EXPECT_EQ(latch(faulty, Fault::overrun).fault, Fault::vision_lost);
-  EXPECT_EQ(latch({State::active, Fault::none}, Fault::overrun).fault, Fault::overrun);
-  EXPECT_EQ(latch({State::active, Fault::none}, Fault::overrun).state, State::fault);
+  const Supervisor faulty = latch({.state = State::active}, set_of(Fault::vision_lost));
+  EXPECT_EQ(faulty.state, State::fault);
+  const Supervisor both = latch(faulty, set_of(Fault::overrun));
+  EXPECT_EQ(both.fault, Fault::vision_lost);
+  EXPECT_EQ(both.faults, set_of(Fault::vision_lost) | set_of(Fault::overrun));
 }
 
 }  // namespace

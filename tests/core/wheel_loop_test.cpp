@@ -54,6 +54,7 @@ TEST(WheelLoop, WhatIsAcceptedStaysWithin32Bits) {
                                               RobotDescription{.body_mass_g = 20'000,
                                               .wheel_mass_g = 500,
                                               .wheel_radius_um = 100'000,
+                                              .axle_length_um = 140'000,
                                               .torque_limit_mNm = 2'000,
                                               .top_rim_speed_mm_s = 2'500}}) {
     const RobotProfile any = profile_of(description);
@@ -71,6 +72,7 @@ TEST(WheelLoop, WhatIsAcceptedStaysWithin32Bits) {
   EXPECT_FALSE(loops_fit(profile_of({.body_mass_g = 100'000,
                                      .wheel_mass_g = 500,
                                      .wheel_radius_um = 165'000,
+                                     .axle_length_um = 140'000,
                                      .torque_limit_mNm = 2'000,
                                      .top_rim_speed_mm_s = 2'500})));
 }

@@ -10,9 +10,11 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/gated_node.hpp"
 #include "firmware/policy/built_in.hpp"
 #include "firmware/policy/kernel/int16/portable.hpp"
 #include "firmware/policy/network.hpp"
@@ -28,6 +30,8 @@ namespace {
 using namespace striker;
 using namespace striker::core;
 using namespace striker::policy;
+
+using Node = loop::GatedNode<loop::BuiltInNode>;
 
 constexpr const auto& trained = policy::built_in;
 
@@ -110,11 +114,11 @@ Range count_inference(std::uint32_t inputs) {
 }
 
 // A copy of the node takes each repetition: copying is counted on its own, and taken off.
-[[gnu::noinline]] std::uint32_t count_steps(const loop::BuiltInNode& before, const loop::Tick& tick,
-                                            can::FrameList& sent, std::uint32_t repetitions, bool steps) {
+[[gnu::noinline]] std::uint32_t count_steps(const Node& before, const loop::Tick& tick, can::FrameList& sent,
+                                            std::uint32_t repetitions, bool steps) {
   images::restart_counter();
   for (std::uint32_t i = 0; i < repetitions; ++i) {
-    loop::BuiltInNode node = before;
+    Node node = before;
     asm volatile("" : : "r"(&node) : "memory");
     if (steps) {
       node.step(tick, sent);
@@ -125,7 +129,7 @@ Range count_inference(std::uint32_t inputs) {
 
 void count_recorded_steps(images::Recording& recording, std::uint32_t most_ticks) {
   const std::uint32_t repetitions = exact_repetitions();
-  loop::BuiltInNode node(loop::built_in_robot);
+  Node node(loop::built_in_robot);
   can::FrameList sent;
   std::array<can::Frame, 32> frames{};
   std::size_t frame_count = 0;
@@ -150,7 +154,7 @@ void count_recorded_steps(images::Recording& recording, std::uint32_t most_ticks
         node.controller().state() == State::boot || node.controller().state() == State::self_test;
     node.step(now, sent);
     bool decided = false;
-    for (const can::Frame& frame : sent.frames()) {
+    for (const can::Frame& frame : std::as_const(sent).frames()) {
       decided = decided || can::is<can::Decision>(frame);
     }
     (decided ? with_decision : boots ? self_test : without).add(instructions(all - copying, repetitions));
@@ -174,7 +178,7 @@ int main() {
       "multiply-accumulates",
       Shape::inputs * Shape::hidden1 + Shape::hidden1 * Shape::hidden2 + Shape::hidden2 * Shape::actions);
   images::console::print_line("weight bytes", Packed<trained>::bytes);
-  images::console::print_line("node bytes", sizeof(loop::BuiltInNode));
+  images::console::print_line("node bytes", sizeof(Node));
   if (const std::uint32_t inputs = images::console::argument("inputs", 0); inputs > 0) {
     const Range range = count_inference<trained>(inputs);
     images::console::print_line("inference inputs", inputs);

@@ -33,6 +33,7 @@ class FrameQueue {
     return frames.size();
   }
   [[nodiscard]] can::BusHealth health() const { return can::BusHealth::active; }
+  [[nodiscard]] std::uint32_t lost() const { return 0; }
 
  private:
   can::Frame frame_;

@@ -8,13 +8,16 @@
 // the robot that the built-in policy is too fast for refused it.
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/core/controller.hpp"
 #include "firmware/loop/controller_node.hpp"
+#include "firmware/loop/gated_node.hpp"
 #include "firmware/policy/exported/kick.hpp"
 #include "tests/images/console.hpp"
+#include "tests/loop/consent.hpp"
 #include "tests/policy/wander_policy.hpp"
 
 namespace {
@@ -24,7 +27,7 @@ using namespace striker;
 using Kick = core::Pilot<policy::kick>;
 using Wander = core::Pilot<policy::wander>;
 template <class Pilot>
-using Node = loop::ControllerNode<core::Controller<Pilot>, can::StrikerDrives>;
+using Node = loop::GatedNode<loop::ControllerNode<core::Controller<Pilot>, can::StrikerDrives>>;
 
 constexpr core::RobotProfile forward = core::profile_of(core::forward);
 constexpr core::RobotProfile defender = core::profile_of(core::defender);
@@ -35,30 +38,39 @@ static_assert(Wander::suits(forward) && Wander::suits(defender) && Wander::suits
 
 constexpr std::uint32_t run_ticks = 2'000;
 
-// A robot around a node: wheels that follow the torque, a ball that comes and goes, an operator who arms.
+// A robot around a node: wheels that follow the torque, a camera that sees where they took it, a ball that comes and
+// goes, an operator who arms.
 template <class Pilot>
 class Robot {
  public:
-  explicit Robot(const core::RobotProfile& robot) : node_(robot) {}
+  explicit Robot(const core::RobotProfile& robot) : turn_q12_(robot.turn_q12), node_(robot) {}
 
   void tick() {
-    std::array<can::Frame, 4> frames;
+    std::array<can::Frame, 5> frames;
     std::size_t count = 0;
     if (now_ % 50 == 0) {
       const auto number = static_cast<std::int32_t>(now_ / 50 % 16);
-      const auto phase = static_cast<std::int32_t>(now_ % 1500);
-      frames[count++] = can::send(can::VisionPose{.frame = number, .heading = 40 * phase - 30'000}, pose_);
+      const auto phase = static_cast<std::int32_t>(now_ % 1500 < 750 ? now_ % 1500 : 1500 - now_ % 1500);
+      frames[count++] = can::send(can::VisionPose{.frame = number,
+                                                  .x_quarter_mm = place_um_.x / can::um_per_quarter_mm,
+                                                  .y_quarter_mm = place_um_.y / can::um_per_quarter_mm,
+                                                  .heading = core::wrap_angle(heading_q12_ >> 12)},
+                                  pose_);
       frames[count++] = can::send(
           can::VisionBall{
               .frame = number, .x_quarter_mm = 8000 - 8 * phase, .y_quarter_mm = 3 * phase - 2000},
           ball_);
     }
     frames[count++] = can::send(wheels_, wheel_counter_);
+    move();
     if (now_ == 160) {
-      frames[count++] = can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(can::Mode::arm)}, mode_);
+      frames[count++] = operator_.command(can::Mode::arm);
+    }
+    if (const auto confirmation = operator_.answer(std::as_const(sent_).frames())) {
+      frames[count++] = *confirmation;
     }
     node_.step({.number = now_, .frames = std::span(frames).first(count)}, sent_);
-    for (const can::Frame& frame : sent_.frames()) {
+    for (const can::Frame& frame : std::as_const(sent_).frames()) {
       take(frame);
     }
     ++now_;
@@ -75,6 +87,15 @@ class Robot {
   [[nodiscard]] core::Fault fault() const { return node_.controller().fault(); }
 
  private:
+  // In a tick of 1 ms a speed in mm/s is a distance in um.
+  void move() {
+    const core::Vector way =
+        core::rotate({(wheels_.left_mm_s + wheels_.right_mm_s) / 2, 0}, core::wrap_angle(heading_q12_ >> 12));
+    place_um_ = {place_um_.x + way.x, place_um_.y + way.y};
+    // Binary angle in Q12, whose full circle is 2^28.
+    heading_q12_ = (heading_q12_ + (wheels_.right_mm_s - wheels_.left_mm_s) * turn_q12_) & 0x0FFFFFFF;
+  }
+
   void take(const can::Frame& frame) {
     hash_.add(frame.id);
     for (const std::uint8_t byte : frame.data) {
@@ -87,12 +108,16 @@ class Robot {
     }
   }
 
+  std::int32_t turn_q12_;
+  core::Vector place_um_;
+  std::int32_t heading_q12_ = 0;
   Node<Pilot> node_;
   can::FrameList sent_;
   policy::proof::Fnv1a hash_;
   std::uint32_t now_ = 0;
   can::WheelState wheels_;
-  can::SendCounter pose_, ball_, wheel_counter_, mode_;
+  can::SendCounter pose_, ball_, wheel_counter_;
+  loop::BenchOperator operator_;
 };
 
 int failures = 0;

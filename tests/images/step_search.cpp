@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/images/step_search.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/gated_node.hpp"
 #include "tests/images/instruction_counter.hpp"
+#include "tests/loop/consent.hpp"
 #include "tests/policy/synthetic_policy.hpp"
 
 namespace striker::images {
@@ -16,10 +20,14 @@ using policy::SmallRandom;
 
 // A node and everything that sends to it.
 struct Scene {
-  loop::BuiltInNode node{loop::built_in_robot};
+  loop::GatedNode<loop::BuiltInNode> node{loop::built_in_robot};
   std::uint32_t tick = 0;
   std::int32_t picture = 0;
-  can::SendCounter wheels, pose, ball, mode, stop;
+  can::SendCounter wheels, pose, ball, stop;
+  loop::BenchOperator operators;
+  can::FrameList sent;
+  can::WheelState speeds;
+  core::Vector robot_quarter_mm, ball_quarter_mm;
 };
 
 struct Frames {
@@ -36,28 +44,34 @@ bool one_in(SmallRandom& random, std::uint32_t chance) {
   return random.bits() % chance == 0;
 }
 
-// Any position or speed, and often one at an end of its range.
-std::int32_t any_of(SmallRandom& random, std::int32_t limit) {
-  return one_in(random, 4) ? (one_in(random, 2) ? limit : -limit) : random.within(limit);
+// To a neighbour of `value`, as what jumps is implausible; rarely to an end of its range.
+std::int32_t near(SmallRandom& random, std::int32_t value, std::int32_t limit) {
+  const std::int32_t end = one_in(random, 2) ? limit : -limit;
+  return one_in(random, 256) ? end : std::clamp(value + random.within(100), -limit, limit);
 }
 
 void add_wheels(Scene& scene, SmallRandom& random, Frames& frames) {
   const std::int32_t limit = one_in(random, 64) ? 4000 : 2550;
-  frames.add(
-      can::send(can::WheelState{.left_mm_s = any_of(random, limit), .right_mm_s = any_of(random, limit)},
-                scene.wheels));
+  scene.speeds = {.left_mm_s = near(random, scene.speeds.left_mm_s, limit),
+                  .right_mm_s = near(random, scene.speeds.right_mm_s, limit)};
+  frames.add(can::send(scene.speeds, scene.wheels));
 }
 
 void add_picture(Scene& scene, SmallRandom& random, Frames& frames) {
+  constexpr std::int32_t limit = 32767;
   scene.picture = (scene.picture + (one_in(random, 16) ? 5 : 1)) & 0xF;
+  scene.robot_quarter_mm = {near(random, scene.robot_quarter_mm.x, limit),
+                            near(random, scene.robot_quarter_mm.y, limit)};
+  scene.ball_quarter_mm = {near(random, scene.ball_quarter_mm.x, limit),
+                           near(random, scene.ball_quarter_mm.y, limit)};
   frames.add(can::send(can::VisionPose{.frame = scene.picture,
-                                       .x_quarter_mm = any_of(random, 32767),
-                                       .y_quarter_mm = any_of(random, 32767),
-                                       .heading = any_of(random, 32767)},
+                                       .x_quarter_mm = scene.robot_quarter_mm.x,
+                                       .y_quarter_mm = scene.robot_quarter_mm.y,
+                                       .heading = random.within(1000)},
                        scene.pose));
   frames.add(can::send(can::VisionBall{.frame = one_in(random, 16) ? scene.picture ^ 1 : scene.picture,
-                                       .x_quarter_mm = any_of(random, 32767),
-                                       .y_quarter_mm = any_of(random, 32767)},
+                                       .x_quarter_mm = scene.ball_quarter_mm.x,
+                                       .y_quarter_mm = scene.ball_quarter_mm.y},
                        scene.ball));
 }
 
@@ -66,7 +80,7 @@ void add_mode(Scene& scene, SmallRandom& random, Frames& frames) {
   if (scene.node.controller().state() == core::State::standby) {
     mode = can::Mode::arm;
   }
-  frames.add(can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, scene.mode));
+  frames.add(scene.operators.command(mode));
 }
 
 // Wrong in length, checksum, counter or range, of a message or of none.
@@ -106,6 +120,9 @@ Frames frames_of(Scene& scene, SmallRandom& random) {
   if (wants_mode || one_in(random, 2048)) {
     add_mode(scene, random, frames);
   }
+  if (const auto confirmation = scene.operators.answer(std::as_const(scene.sent).frames())) {
+    frames.add(*confirmation);
+  }
   if (one_in(random, 4096)) {
     frames.add(can::send(can::EmergencyStop{}, scene.stop));
   }
@@ -136,7 +153,6 @@ SearchResult search_longest_step(std::uint32_t steps, std::uint32_t seed) {
   Scene scene;
   Scene longest = scene;
   std::uint32_t longest_counts = 0;
-  can::FrameList sent;
   for (std::uint32_t i = 0; i < steps; ++i) {
     if (one_in(random, 2000)) {
       scene = one_in(random, 2) ? longest : Scene{};
@@ -145,13 +161,13 @@ SearchResult search_longest_step(std::uint32_t steps, std::uint32_t seed) {
     const Frames frames = frames_of(scene, random);
     const loop::Tick tick{.number = scene.tick, .frames = std::span(frames.all).first(frames.count)};
     restart_counter();
-    scene.node.step(tick, sent);
+    scene.node.step(tick, scene.sent);
     const std::uint32_t counts = counted() + 1;
     if (counts >= longest_counts) {
       longest_counts = counts;
       longest = before;
     }
-    for (const can::Frame& frame : sent.frames()) {
+    for (const can::Frame& frame : std::as_const(scene.sent).frames()) {
       result.decisions += static_cast<std::uint32_t>(can::is<can::Decision>(frame));
     }
     let_time_pass(scene, random);

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/loop/bus.hpp"
+#include "tests/loop/consent.hpp"
 
 namespace striker::loop {
 
@@ -19,6 +22,7 @@ class MemoryBus {
   std::vector<can::Frame> waiting;
   std::vector<can::Frame> sent;  // since it was last cleared
   can::BusHealth now = can::BusHealth::active;
+  std::uint32_t lost_frames = 0;
   std::size_t room = 100;  // frames that it takes in a tick
 
   void poll() {}
@@ -34,6 +38,7 @@ class MemoryBus {
     return taken;
   }
   [[nodiscard]] can::BusHealth health() const { return now; }
+  std::uint32_t lost() { return std::exchange(lost_frames, 0); }
 
  private:
   std::vector<can::Frame> batch_;
@@ -50,20 +55,29 @@ class World {
       frames.push_back(can::send(can::VisionBall{.frame = number, .x_quarter_mm = 6000}, ball_));
     }
     frames.push_back(can::send(can::WheelState{}, wheels_));
-    if (tick == 160) {
+    if (tick == 210) {
       frames.push_back(mode(can::Mode::arm));
+    }
+    if (confirmation_) {
+      frames.push_back(*std::exchange(confirmation_, std::nullopt));
     }
     return frames;
   }
-  can::Frame mode(can::Mode mode) {
-    return can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, mode_);
+  can::Frame mode(can::Mode mode) { return operator_.command(mode); }
+
+  // What the controller sent: a challenge is confirmed with the next frames.
+  void hear(const std::vector<can::Frame>& sent) {
+    const auto confirmation = operator_.answer(sent);
+    confirmation_ = confirmation ? confirmation : confirmation_;
   }
   can::Frame sync(std::uint32_t tick) {
     return can::send(can::Sync{.tick = static_cast<std::int32_t>(tick)}, sync_);
   }
 
  private:
-  can::SendCounter pose_, ball_, wheels_, mode_, sync_;
+  can::SendCounter pose_, ball_, wheels_, sync_;
+  BenchOperator operator_;
+  std::optional<can::Frame> confirmation_;
 };
 
 inline bool has_torque(const std::vector<can::Frame>& frames) {

@@ -12,6 +12,8 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/gated_node.hpp"
+#include "tests/loop/consent.hpp"
 
 namespace striker::loop {
 
@@ -21,9 +23,10 @@ class NodeRig {
   bool send_wheels = true;
   std::int32_t ball_y_quarter_mm = 0;  // where it begins to come straight to the robot
   can::WheelState wheels;
-  std::vector<can::Frame> extra;  // for the next tick only
-  core::Fault port_fault = core::Fault::none;
-  BuiltInNode node{built_in_robot};
+  std::vector<can::Frame> extra;      // for the next tick only
+  std::vector<can::Frame> delivered;  // in the last tick
+  core::Faults port_faults = 0;
+  GatedNode<BuiltInNode> node{built_in_robot};
 
   void tick() {
     std::vector<can::Frame> frames = std::exchange(extra, {});
@@ -31,20 +34,22 @@ class NodeRig {
       frames.push_back(can::send(wheels, wheel_counter_));
     }
     if (send_vision && now_ % 50 == 0) {
-      // The ball lies ahead and comes closer: something to decide about.
+      // The ball lies ahead, comes closer and goes away: something to decide about.
       const auto frame = static_cast<std::int32_t>(now_ / 50 % 16);
-      const std::int32_t x_quarter_mm = 8000 - static_cast<std::int32_t>(now_ % 4000);
+      const auto phase = static_cast<std::int32_t>(now_ % 8000);
+      const std::int32_t x_quarter_mm = 8000 - (phase < 4000 ? phase : 8000 - phase);
       frames.push_back(can::send(can::VisionPose{.frame = frame}, pose_counter_));
       frames.push_back(can::send(can::VisionBall{.frame = frame,
                                                  .x_quarter_mm = x_quarter_mm,
                                                  .y_quarter_mm = ball_y_quarter_mm * x_quarter_mm / 8000},
                                  ball_counter_));
     }
+    delivered = frames;
     step(frames);
   }
 
   void step(std::span<const can::Frame> frames) {
-    answer({.number = now_, .frames = frames, .port_fault = port_fault});
+    answer({.number = now_, .frames = frames, .port_faults = port_faults});
     ++now_;
   }
 
@@ -52,8 +57,8 @@ class NodeRig {
   void answer(const Tick& tick) {
     node.step(tick, sent);
     ASSERT_FALSE(sent.frames().empty());
-    ASSERT_EQ(can::receive(sent.frames().back(), command_counter_, command), can::Verdict::accepted);
-    for (const can::Frame& frame : sent.frames()) {
+    ASSERT_EQ(can::receive(frames().back(), command), can::Verdict::accepted);
+    for (const can::Frame& frame : frames()) {
       can::Decision made;
       if (can::is<can::Decision>(frame) && can::unpack(frame, made) == can::Verdict::accepted) {
         decision = made;
@@ -67,8 +72,16 @@ class NodeRig {
     }
   }
 
+  // A disarm or a renewal goes out with the next tick. What takes consent is asked for in a tick of its own, and
+  // confirmed with the next.
   void mode(can::Mode mode) {
-    extra.push_back(can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(mode)}, mode_counter_));
+    extra.push_back(operator_.command(mode));
+    if (mode == can::Mode::arm || mode == can::Mode::clear) {
+      tick();
+      const auto confirmation = operator_.answer(frames());
+      ASSERT_TRUE(confirmation) << "every request is answered with a challenge";
+      extra.push_back(*confirmation);
+    }
   }
   void stop() { extra.push_back(can::send(can::EmergencyStop{}, stop_counter_)); }
 
@@ -80,6 +93,8 @@ class NodeRig {
     run(50);
   }
 
+  [[nodiscard]] std::span<const can::Frame> frames() const { return sent.frames(); }
+  [[nodiscard]] core::Faults faults() const { return node.controller().faults(); }
   [[nodiscard]] core::State state() const { return node.controller().state(); }
   [[nodiscard]] core::Fault fault() const { return node.controller().fault(); }
   [[nodiscard]] bool torque() const { return command.left_torque_mNm != 0 || command.right_torque_mNm != 0; }
@@ -94,9 +109,8 @@ class NodeRig {
   can::SendCounter wheel_counter_;
   can::SendCounter pose_counter_;
   can::SendCounter ball_counter_;
-  can::SendCounter mode_counter_;
   can::SendCounter stop_counter_;
-  can::ReceiveCounter command_counter_;
+  BenchOperator operator_;
 };
 
 }  // namespace striker::loop

@@ -49,13 +49,11 @@ struct Account {
 
   void take(std::uint32_t now, const std::vector<can::Frame>& frames) {
     for (const can::Frame& frame : frames) {
-      can::ReceiveCounter any;
       can::VisionBall ball;
       can::WheelState state;
-      if (can::is<can::VisionBall>(frame) && can::receive(frame, any, ball) == can::Verdict::accepted) {
+      if (can::is<can::VisionBall>(frame) && can::receive(frame, ball) == can::Verdict::accepted) {
         vision = now;
-      } else if (can::is<can::WheelState>(frame) &&
-                 can::receive(frame, any, state) == can::Verdict::accepted) {
+      } else if (can::is<can::WheelState>(frame) && can::receive(frame, state) == can::Verdict::accepted) {
         wheels = now;
       }
     }
@@ -69,10 +67,13 @@ void run_hostile(std::uint32_t seed, std::uint64_t& driven_ticks) {
   can::SendCounter pose_counter;
   can::SendCounter ball_counter;
   can::SendCounter wheel_counter;
-  can::SendCounter mode_counter;
+  BenchOperator operators;
   can::SendCounter stop_counter;
-  std::uniform_int_distribution<std::int32_t> any16(-32768, 32767);
-  std::uniform_int_distribution<std::int32_t> speed(-3200, 3200);
+  // A world that wanders no faster than a world can.
+  std::uniform_int_distribution<std::int32_t> step(-100, 100);
+  can::VisionPose pose;
+  can::VisionBall ball{.x_quarter_mm = 4000};
+  can::WheelState wheels;
   bool vision_on = true;
   bool wheels_on = true;
   for (std::uint32_t now = 0; now < 20'000; ++now) {
@@ -82,19 +83,23 @@ void run_hostile(std::uint32_t seed, std::uint64_t& driven_ticks) {
     const std::uint64_t jitter = bus.random()() % 3;
     if (vision_on && (now + jitter) % 50 <= 1) {
       const auto frame = static_cast<std::int32_t>(now / 50 % 16);
-      sent.push_back(
-          can::send(can::VisionPose{frame, any16(bus.random()), any16(bus.random()), any16(bus.random())},
-                    pose_counter));
-      sent.push_back(
-          can::send(can::VisionBall{frame, any16(bus.random()), any16(bus.random())}, ball_counter));
+      pose = {frame, pose.x_quarter_mm + step(bus.random()), pose.y_quarter_mm + step(bus.random()),
+              step(bus.random())};
+      ball = {frame, ball.x_quarter_mm + step(bus.random()), ball.y_quarter_mm + step(bus.random())};
+      sent.push_back(can::send(pose, pose_counter));
+      sent.push_back(can::send(ball, ball_counter));
     }
     if (wheels_on) {
-      sent.push_back(can::send(can::WheelState{0, speed(bus.random()), speed(bus.random())}, wheel_counter));
+      wheels = {0, step(bus.random()), step(bus.random())};
+      sent.push_back(can::send(wheels, wheel_counter));
     }
     if (bus.uniform() < 0.05) {
-      const std::array modes = {can::Mode::arm, can::Mode::arm, can::Mode::clear, can::Mode::disarm};
-      sent.push_back(
-          can::send(can::ModeCommand{static_cast<std::int32_t>(modes[bus.random()() % 4])}, mode_counter));
+      const std::array modes = {can::Mode::arm, can::Mode::arm, can::Mode::clear, can::Mode::renew,
+                                bus.uniform() < 0.1 ? can::Mode::disarm : can::Mode::clear};
+      sent.push_back(operators.command(modes[bus.random()() % modes.size()]));
+    }
+    if (const auto confirmation = operators.answer(rig.frames()); confirmation && bus.uniform() < 0.8) {
+      sent.push_back(*confirmation);
     }
     if (bus.uniform() < 0.0003) {
       sent.push_back(can::send(can::EmergencyStop{}, stop_counter));
@@ -121,7 +126,7 @@ TEST(RandomBus, NoTorqueWithoutAValidFreshArmedCause) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     run_hostile(seed, driven_ticks);
   }
-  EXPECT_GT(driven_ticks, 20'000U) << "the test must see the controller drive";
+  EXPECT_GT(driven_ticks, 5'000U) << "the test must see the controller drive";
 }
 
 }  // namespace

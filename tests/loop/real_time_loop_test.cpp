@@ -67,6 +67,7 @@ class Loop {
  private:
   // Keeps what passes from the controller to the bench.
   struct Recorder {
+    explicit Recorder(host::AbsoluteClock& clock) : bus(clock) {}
     InProcessBus bus;
     std::vector<can::Frame> sent;
     can::BusHealth now = can::BusHealth::active;
@@ -79,20 +80,19 @@ class Loop {
     }
     loop::Received<std::int64_t> receive(std::size_t most) { return bus.receive(most); }
     [[nodiscard]] can::BusHealth health() const { return now; }
+    std::uint32_t lost() { return bus.lost(); }
   };
 
   void watch() {
     Seen now;
     for (const can::Frame& frame : recorder_.sent) {
-      can::ReceiveCounter any;
       can::WheelCommand command;
       can::FaultReport report;
       can::Heartbeat heartbeat;
-      if (can::is<can::WheelCommand>(frame) && can::receive(frame, any, command) == can::Verdict::accepted) {
+      if (can::is<can::WheelCommand>(frame) && can::receive(frame, command) == can::Verdict::accepted) {
         ++now.commands;
         now.torque = command.left_torque_mNm != 0 || command.right_torque_mNm != 0;
-      } else if (can::is<can::FaultReport>(frame) &&
-                 can::receive(frame, any, report) == can::Verdict::accepted) {
+      } else if (can::is<can::FaultReport>(frame) && can::receive(frame, report) == can::Verdict::accepted) {
         now.reported = static_cast<core::Fault>(report.code);
       } else if (can::is<can::Heartbeat>(frame) && can::unpack(frame, heartbeat) == can::Verdict::accepted) {
         now.uptime_ms = heartbeat.uptime_ms;
@@ -104,7 +104,7 @@ class Loop {
     recorder_.sent.clear();
   }
 
-  Recorder recorder_;
+  Recorder recorder_{clock};
   BenchPeer peer_{recorder_.bus};
 };
 
@@ -195,8 +195,8 @@ TEST(RealTimeLoop, AnOverrunIsReportedAtItsPeriod) {
 }
 
 TEST(RealTimeLoop, AFloodTakesAsManyFramesATickAsItMay) {
-  InProcessBus bus;
   LogicalClock clock;
+  InProcessBus bus(clock);
   LoopTiming timing;
   std::atomic<core::Fault> fault = core::Fault::none;
   for (int i = 0; i < 100; ++i) {
@@ -217,8 +217,8 @@ TEST(RealTimeLoop, LatencyRunsFromTheOldestFrame) {
 }
 
 TEST(RealTimeLoop, TheTimingFrameTellsTheMaximaSinceTheLast) {
-  InProcessBus bus;
   LogicalClock clock;
+  InProcessBus bus(clock);
   LoopTiming timing;
   std::atomic<core::Fault> fault = core::Fault::none;
   std::vector<can::Timing> told;

@@ -48,6 +48,7 @@ class BoardLoop : public testing::Test {
     bus_.waiting.insert(bus_.waiting.end(), frames.begin(), frames.end());
     bus_.sent.clear();
     loop_.turn();
+    world_.hear(bus_.sent);
     tick_ = ticks_.last().wake.tick;
   }
   void turn_until(std::uint32_t tick) {
@@ -99,9 +100,11 @@ TEST_F(BoardLoop, ABusThatIsOffIsAFaultAsLongAsItIs) {
   EXPECT_FALSE(has_torque(bus_.sent));
   bus_.waiting.push_back(world_.mode(can::Mode::clear));
   turn();
+  turn();
   EXPECT_EQ(state(), core::State::fault) << "the bus is still off";
   bus_.now = can::BusHealth::active;
   bus_.waiting.push_back(world_.mode(can::Mode::clear));
+  turn();
   turn();
   EXPECT_EQ(state(), core::State::standby);
 }
@@ -137,8 +140,8 @@ TEST_F(BoardLoop, AFloodTakesItsShareOfATickAndNoMore) {
 class MadNode {
  public:
   using Drives = can::StrikerDrives;
-  explicit MadNode(const core::RobotProfile&) {}
-  void step(const Tick&, can::FrameList& frames) {
+  explicit MadNode(const core::RobotProfile&, std::uint32_t) {}
+  void step(const Tick&, const GateReport&, can::FrameList& frames) {
     frames.clear();
     frames.add({.id = 0x040, .length = 2, .data = {}});  // an operator's command
     frames.add({.id = 0x050, .length = 8, .data = {}});
@@ -155,7 +158,7 @@ TEST(TickLoop, OnlyWhatIsOnTheWhitelistGoesOut) {
   ASSERT_EQ(bus.sent.size(), 1U);
   EXPECT_EQ(bus.sent.front().id, 0x050);
   EXPECT_EQ(bus.sent.front().length, 8);
-  EXPECT_EQ(loop.refused_frames(), 2U);
+  EXPECT_EQ(loop.gate().refused(), 2U);
 }
 
 TEST_F(BoardLoop, TheEndTakesTheTorque) {
@@ -165,6 +168,12 @@ TEST_F(BoardLoop, TheEndTakesTheTorque) {
   EXPECT_FALSE(bus_.sent.empty());
   EXPECT_FALSE(has_torque(bus_.sent));
   EXPECT_EQ(state(), core::State::standby);
+}
+
+std::vector<can::Frame> challenges(const std::vector<can::Frame>& sent) {
+  std::vector<can::Frame> found;
+  std::copy_if(sent.begin(), sent.end(), std::back_inserter(found), can::is<can::Challenge>);
+  return found;
 }
 
 // The two sources of ticks differ in when, not in what: the same frames at the same ticks, the same answers.
@@ -189,6 +198,8 @@ TEST(TickLoop, LockstepAndTheClockGiveTheSameAnswers) {
     sync_bus.sent.clear();
     clocked.turn();
     synchronous.turn();
+    world.hear(clocked_bus.sent);
+    ASSERT_EQ(challenges(clocked_bus.sent), challenges(sync_bus.sent));
     if (tick < 50) {
       continue;  // lockstep had tick 0 more, and is a golden vector ahead in the self-test
     }

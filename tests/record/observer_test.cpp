@@ -100,12 +100,11 @@ TEST(Observer, SeesWhatTheCameraSeesWithoutItsRounding) {
   const Diary diary = watch();
   for (std::uint32_t i = lead_ticks + 50; i < episode_ticks; i += 50) {
     const std::size_t picture = std::size_t{2} * (i / 50);
-    can::ReceiveCounter any;
     can::VisionPose pose;
     can::VisionBall ball;
-    ASSERT_EQ(can::receive(diary.pictures.at(picture), any, pose), can::Verdict::accepted);
+    ASSERT_EQ(can::receive(diary.pictures.at(picture), pose), can::Verdict::accepted);
     any = {};
-    ASSERT_EQ(can::receive(diary.pictures.at(picture + 1), any, ball), can::Verdict::accepted);
+    ASSERT_EQ(can::receive(diary.pictures.at(picture + 1), ball), can::Verdict::accepted);
     const std::size_t before = boot_ticks + i - 1;
     ASSERT_NEAR(pose.x_quarter_mm * 0.25e-3, diary.robots[before].pose.x_m, 0.126e-3) << i;
     ASSERT_NEAR(pose.y_quarter_mm * 0.25e-3, diary.robots[before].pose.y_m, 0.126e-3) << i;

@@ -119,12 +119,10 @@ TEST(Seat, ACamerasFaultForgesNoFrame) {
   Seat seat({.plant = *robot.plant, .drives = robot.drives, .camera = shifted, .link = link});
   seat.take_picture(robot.world);
   seat.begin_tick(0);
-  can::ReceiveCounter any;
   can::VisionPose pose;
   can::VisionBall ball;
-  ASSERT_EQ(can::receive(link.sent.at(0), any, pose), can::Verdict::accepted);
-  any = {};
-  ASSERT_EQ(can::receive(link.sent.at(1), any, ball), can::Verdict::accepted);
+  ASSERT_EQ(can::receive(link.sent.at(0), pose), can::Verdict::accepted);
+  ASSERT_EQ(can::receive(link.sent.at(1), ball), can::Verdict::accepted);
   EXPECT_EQ(pose.x_quarter_mm, 600 * 4);
   EXPECT_EQ(pose.y_quarter_mm, -250 * 4);
   EXPECT_EQ(ball.x_quarter_mm, 1100 * 4);
@@ -142,8 +140,10 @@ struct Player {
   }
 
   void prepare(std::uint32_t tick) {
-    if (tick == 151) {
+    if (tick == 201) {
       robot.seat.queue(console.order(can::Mode::arm));
+    } else if (const auto confirmation = console.confirmation()) {
+      robot.seat.queue(*confirmation);
     }
     if (tick % 50 == 0) {
       robot.seat.take_picture(robot.world);
@@ -151,6 +151,7 @@ struct Player {
   }
   void finish(std::uint32_t tick) {
     answers.insert(answers.end(), robot.seat.answer().begin(), robot.seat.answer().end());
+    console.hear(robot.seat.answer());
     robot.seat.actuate(robot.world, tick);
     robot.world.step();
     robot.seat.sense(robot.world);

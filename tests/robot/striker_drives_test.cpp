@@ -4,40 +4,91 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace striker::sil {
 namespace {
 
-TEST(StrikerDrives, CutTheTorqueTenMillisecondsAfterTheLastCommand) {
+// Commands until they are believed; the last of them at tick 99.
+class Driven {
+ public:
   StrikerDrives drives;
   can::SendCounter counter;
-  EXPECT_TRUE(drives.cut(0)) << "no command yet";
-  drives.take(can::send(can::WheelCommand{.left_torque_mNm = 300}, counter), 100);
-  for (std::uint32_t tick = 100; tick < 110; ++tick) {
-    EXPECT_FALSE(drives.cut(tick));
+
+  Driven() {
+    for (std::uint32_t tick = 80; tick < 100; ++tick) {
+      drives.take(command(300), tick);
+    }
   }
-  EXPECT_TRUE(drives.cut(110));
+  can::Frame command(std::int32_t torque_mNm) {
+    return can::send(can::WheelCommand{.left_torque_mNm = torque_mNm, .right_torque_mNm = torque_mNm},
+                     counter);
+  }
+};
+
+TEST(StrikerDrives, CutTheTorqueTenMillisecondsAfterTheLastCommand) {
+  EXPECT_TRUE(StrikerDrives().cut(0)) << "no command yet";
+  Driven driven;
+  for (std::uint32_t tick = 99; tick < 109; ++tick) {
+    EXPECT_FALSE(driven.drives.cut(tick));
+  }
+  EXPECT_TRUE(driven.drives.cut(109));
 }
 
 TEST(StrikerDrives, ABadCommandIsIgnoredCountedAndFeedsNothing) {
-  StrikerDrives drives;
-  can::SendCounter counter;
-  drives.take(can::send(can::WheelCommand{.left_torque_mNm = 300}, counter), 0);
-  can::Frame bad = can::send(can::WheelCommand{.left_torque_mNm = -300}, counter);
+  Driven driven;
+  const std::uint64_t before = driven.drives.ignored();
+  can::Frame bad = driven.command(-300);
   bad.data[3] ^= 0x10U;
-  drives.take(bad, 5);
-  EXPECT_EQ(drives.orders()[0].torque_Nm, 300 * 1e-3);
-  EXPECT_EQ(drives.ignored(), 1U);
-  EXPECT_TRUE(drives.cut(10));
+  driven.drives.take(bad, 105);
+  EXPECT_EQ(driven.drives.orders()[0].torque_Nm, 300 * 1e-3);
+  EXPECT_EQ(driven.drives.ignored(), before + 1);
+  EXPECT_TRUE(driven.drives.cut(109));
 }
 
-TEST(StrikerDrives, AControllerThatComesBackMayCountFromAnywhere) {
+// A hung controller that sends one frame, or a few, again and again.
+TEST(StrikerDrives, AFrozenCommandDrivesNothing) {
+  for (std::size_t frames = 1; frames <= 11; ++frames) {
+    for (const std::uint32_t period : {1U, 2U, 5U, 10U}) {
+      Driven driven;
+      std::vector<can::Frame> old;
+      for (std::size_t i = 0; i < frames; ++i) {
+        old.push_back(driven.command(400));
+      }
+      std::uint32_t driven_ticks = 0;
+      for (std::uint32_t tick = 100; tick < 60'100; ++tick) {
+        if (tick % period == 0) {
+          driven.drives.take(old[tick / period % frames], tick);
+        }
+        driven_ticks += driven.drives.cut(tick) ? 0U : 1U;
+      }
+      // What was good ends with its time-out; nothing is believed again.
+      EXPECT_LE(driven_ticks, 10U + frames * period) << frames << " frames every " << period << " ms";
+    }
+  }
+}
+
+TEST(StrikerDrives, ACommandThatWaitedIsAsOldAsItIs) {
+  Driven driven;
+  can::Frame late = driven.command(300);
+  late.age_ms = 9;
+  driven.drives.take(late, 108);
+  EXPECT_FALSE(driven.drives.cut(108));
+  EXPECT_TRUE(driven.drives.cut(109));
+}
+
+TEST(StrikerDrives, AControllerThatComesBackIsBelievedAfterTwelveCommandsFromAnyCounter) {
   for (std::uint8_t start = 0; start < 16; ++start) {
-    StrikerDrives drives;
-    can::SendCounter counter;
-    drives.take(can::send(can::WheelCommand{}, counter), 0);
-    counter.next = start;
-    drives.take(can::send(can::WheelCommand{.left_torque_mNm = 7}, counter), 50);
-    EXPECT_EQ(drives.orders()[0].torque_Nm, 7 * 1e-3) << int{start};
+    Driven driven;
+    driven.counter.next = start;
+    for (std::uint32_t tick = 500; tick < 511; ++tick) {
+      driven.drives.take(driven.command(7), tick);
+      ASSERT_TRUE(driven.drives.cut(tick)) << int{start} << " " << tick;
+    }
+    driven.drives.take(driven.command(7), 511);
+    driven.drives.take(driven.command(7), 512);  // after the very last counter, the first is a repetition
+    EXPECT_FALSE(driven.drives.cut(512)) << int{start};
+    EXPECT_EQ(driven.drives.orders()[0].torque_Nm, 7 * 1e-3);
   }
 }
 

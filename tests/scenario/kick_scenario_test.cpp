@@ -69,11 +69,9 @@ TEST(KickScenario, TorqueOnlyWhileActive) {
   for (const auto& [frame, received_ns] : bus_of(PlantKind::drive, {.episodes = 5})) {
     can::Status status;
     can::WheelCommand command;
-    can::ReceiveCounter any;
-    if (can::is<can::Status>(frame) && can::receive(frame, any, status) == can::Verdict::accepted) {
+    if (can::is<can::Status>(frame) && can::receive(frame, status) == can::Verdict::accepted) {
       state = static_cast<core::State>(status.state);
-    } else if (can::is<can::WheelCommand>(frame) &&
-               can::receive(frame, any, command) == can::Verdict::accepted &&
+    } else if (can::is<can::WheelCommand>(frame) && can::receive(frame, command) == can::Verdict::accepted &&
                (command.left_torque_mNm != 0 || command.right_torque_mNm != 0)) {
       ++driven;
       ASSERT_EQ(state, core::State::active);
@@ -87,10 +85,10 @@ TEST(KickScenario, StopsBetweenTicksAndKeepsWhatWasDone) {
   std::uint32_t ticks = 0;
   AtEndOfTick count([&](const Snapshot&) { ++ticks; });
   const auto outcomes = KickRig(link, PlantKind::servo).play({.episodes = 1000}, {&count}, [&] {
-    return ticks == 50 + 2 * 2200 + 700;
+    return ticks == kick_boot_ticks + 2 * kick_episode_ticks + 700;
   });
   EXPECT_EQ(outcomes.size(), 2U);
-  EXPECT_EQ(ticks, 50 + 2 * 2200 + 700 + 1) << "a tick more, to disarm";
+  EXPECT_EQ(ticks, kick_boot_ticks + 2 * kick_episode_ticks + 700 + 1) << "a tick more, to disarm";
   EXPECT_EQ(link.controller().state(), core::State::standby);
 }
 

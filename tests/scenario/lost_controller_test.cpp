@@ -11,8 +11,8 @@
 namespace striker::sil {
 namespace {
 
-constexpr std::uint32_t first_decision = 150;  // 50 ticks of boot, then two pictures
-constexpr std::uint32_t second_episode = 50 + 2200;
+constexpr std::uint32_t first_decision = kick_boot_ticks + kick_first_decision_tick;
+constexpr std::uint32_t second_episode = kick_boot_ticks + kick_episode_ticks;
 constexpr std::uint32_t lost = first_decision + 700;
 constexpr std::uint32_t back = lost + 300;
 

@@ -7,10 +7,10 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
-#include <ctime>
 #include <optional>
 
 #include "firmware/host/can_socket.hpp"
+#include "firmware/host/periodic_clock.hpp"
 #include "firmware/loop/bus.hpp"
 #include "firmware/ports/linux/frame_batch.hpp"
 
@@ -53,6 +53,9 @@ class FrameRing {
 // The controller's end is the loop's bus; the other end has functions of its own.
 class InProcessBus {
  public:
+  // The clock that the frames' times are of.
+  explicit InProcessBus(host::AbsoluteClock& clock) : clock_(&clock) {}
+
   void poll() {}
   std::size_t try_send(std::span<const can::Frame> frames) {
     std::size_t taken = 0;
@@ -64,9 +67,7 @@ class InProcessBus {
 
   loop::Received<std::int64_t> receive(std::size_t most) {
     batch_.clear();
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    const std::int64_t now_ns = now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+    const std::int64_t now_ns = clock_->now_ns();
     for (std::size_t i = 0; i < std::min<std::size_t>(most, greatest_frames_per_tick); ++i) {
       auto stamped = to_controller_.pop();
       if (!stamped) {
@@ -92,6 +93,7 @@ class InProcessBus {
   }
 
  private:
+  host::AbsoluteClock* clock_;
   FrameRing to_controller_;
   FrameRing from_controller_;
   std::atomic<std::uint32_t> lost_ = 0;
