@@ -18,6 +18,10 @@ namespace striker::sil {
 
 namespace {
 
+// Of the faulty episode, the first of its run.
+constexpr std::uint32_t first_decision_tick = kick_boot_ticks + kick_first_decision_tick;
+constexpr std::uint32_t last_tick = kick_boot_ticks + kick_last_tick;
+
 FaultRunOptions with_setup(FaultRunOptions options, const FaultSetup& setup) {
   options.plant = setup.plant.value_or(options.plant);
   options.anywhere = setup.anywhere.value_or(options.anywhere);
@@ -76,9 +80,8 @@ Play play(const std::vector<TimedFault>& faults, double torque_scale, const Faul
                    .link = in_process ? static_cast<ControllerLink&>(*in_process) : *socket,
                    .controller = in_process.get()},
                   faults, options.seed, torque_scale);
-  const std::uint32_t end = KickScenario::decisions_end(0);
   Invariants invariants(seat.watched(), loop::built_in_robot, seat.reboots(), out_of_reach_of(faults));
-  FaultTimeline timeline(seat.watched(), begin_of(faults, end), end);
+  FaultTimeline timeline(seat.watched(), begin_of(faults, last_tick), last_tick);
   const std::array<Observer*, 3> observers = {&seat.clock(), &invariants, &timeline};
   KickScenario scenario({.pose = options.anywhere ? PoseMode::anywhere : PoseMode::origin,
                          .seed = options.seed,
@@ -116,7 +119,7 @@ std::optional<std::uint32_t> optional_from(const nlohmann::json& value) {
 
 FaultResult play_fault(const FaultCase& faults, const FaultRunOptions& given) {
   const FaultRunOptions options = with_setup(given, faults.setup);
-  const auto in_time = timed(faults.faults, KickScenario::decisions_begin(0));
+  const auto in_time = timed(faults.faults, first_decision_tick);
   const Play played = play(in_time, faults.setup.torque_scale, options, options.sees_recovery ? 2 : 1);
   FaultResult result = played.result;
   result.reward = first_reward(played);

@@ -18,14 +18,6 @@ KickScenario::KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer*
   look();
 }
 
-std::uint32_t KickScenario::decisions_begin(std::uint64_t index) {
-  return static_cast<std::uint32_t>(boot_ticks + index * episode_ticks + first_decision_tick);
-}
-
-std::uint32_t KickScenario::decisions_end(std::uint64_t index) {
-  return static_cast<std::uint32_t>(boot_ticks + index * episode_ticks + last_tick);
-}
-
 void KickScenario::run(const std::function<bool()>& stop) {
   bool running = boot(stop);
   for (std::uint64_t i = 0; running && i < plan_.episodes; ++i) {

@@ -47,10 +47,6 @@ class KickScenario {
   // controller disarmed.
   void run(const std::function<bool()>& stop);
 
-  // Of the run's episode number `index`, from 0: the tick of decision 0, and the one after decision 39.
-  [[nodiscard]] static std::uint32_t decisions_begin(std::uint64_t index);
-  [[nodiscard]] static std::uint32_t decisions_end(std::uint64_t index);
-
   [[nodiscard]] const std::vector<KickOutcome>& outcomes() const { return outcomes_; }
   [[nodiscard]] double simulated_s() const { return tick_ * tick_s; }
   [[nodiscard]] const std::string& policy() const { return operator_.policy(); }

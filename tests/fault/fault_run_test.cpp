@@ -41,7 +41,7 @@ TEST(FaultySeat, WithoutFaultsItIsTheSeatByteForByte) {
 
 TEST(FaultySeat, TheSamePlanAndSeedAreTheSameBytes) {
   for (std::uint64_t number = 0; number < 4; ++number) {
-    const auto faults = timed(random_case(11, number).faults, KickScenario::decisions_begin(0));
+    const auto faults = timed(random_case(11, number).faults, kick_boot_ticks + kick_first_decision_tick);
     expect_same(traffic(faults, 5), traffic(faults, 5));
   }
 }
