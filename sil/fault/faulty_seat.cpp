@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sil/fault/link/foreign_frames.hpp"
 #include "sil/fault/link/second_controller.hpp"
 #include "sil/fault/memory/node_faults.hpp"
 #include "sil/fault/sensor/camera_faults.hpp"
@@ -36,12 +37,14 @@ std::vector<TimedFault> of_kind(const std::vector<TimedFault>& faults, FaultKind
   return result;
 }
 
-void require_in_process(const std::vector<TimedFault>& faults) {
+void require_possible(const std::vector<TimedFault>& faults, bool in_process) {
   for (const TimedFault& fault : faults) {
-    if (info_of(fault.fault.kind).in_process) {
+    const FaultKindInfo& info = info_of(fault.fault.kind);
+    if (!possible(fault.fault, in_process)) {
       throw std::runtime_error(
-          fmt::format("the fault {} needs the controller in this process: use --bus inproc",
-                      info_of(fault.fault.kind).name));
+          info.real_bus ? fmt::format("the fault {} needs a real bus: use --bus can:IFACE", info.name)
+                        : fmt::format("the fault {} needs the controller in this process: use --bus inproc",
+                                      info.name));
     }
   }
 }
@@ -51,9 +54,7 @@ void require_in_process(const std::vector<TimedFault>& faults) {
 FaultySeat::FaultySeat(const SoundParts& parts, const std::vector<TimedFault>& faults, std::uint64_t seed,
                        double torque_scale)
     : parts_(parts) {
-  if (parts_.controller == nullptr) {
-    require_in_process(faults);
-  }
+  require_possible(faults, parts_.controller != nullptr);
   std::vector<TimedFault> sorted = faults;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const TimedFault& a, const TimedFault& b) { return a.fault.kind < b.fault.kind; });
@@ -86,6 +87,9 @@ ControllerLink& FaultySeat::add_link_faults(const std::vector<TimedFault>& fault
     auto made = make_frame_fault(fault, random_of(fault, seed));
     if (!made && parts_.controller != nullptr) {
       made = make_node_fault(fault, random_of(fault, seed), *parts_.controller);
+    }
+    if (!made && !parts_.interface.empty()) {
+      made = make_foreign_frames(fault, random_of(fault, seed), parts_.interface);
     }
     if (made) {
       frame_faults.push_back(std::move(made));

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sil/bus/in_process_link.hpp"
@@ -30,11 +31,12 @@ struct SoundParts {
   Camera& camera;
   ControllerLink& link;
   InProcessLink* controller = nullptr;  // the same link, where the controller is in this process
+  std::string interface = {};           // else SocketCAN's
 };
 
 class FaultySeat {
  public:
-  // Throws std::runtime_error that names the kind, if one needs a controller in this process and there is none.
+  // Throws std::runtime_error that names the kind, if one cannot be on this bus.
   FaultySeat(const SoundParts& parts, const std::vector<TimedFault>& faults, std::uint64_t seed,
              double torque_scale = 1.0);
   FaultySeat(const FaultySeat&) = delete;

@@ -29,21 +29,19 @@ FaultRunOptions run_options(const FaultOptions& options, std::uint64_t episode) 
           .interface = options.bus == "inproc" ? "" : options.bus.substr(4)};
 }
 
-// On a real bus the cases that need the controller in this process cannot be played.
+// Of a plan from a file every case is played, or the first that cannot be says why not.
 FaultPlan plan_of(const FaultOptions& options) {
-  FaultPlan plan = options.plan.empty() ? fault_catalogue() : read_plan(options.plan);
-  if (options.bus == "inproc") {
-    return plan;
+  if (!options.plan.empty()) {
+    return read_plan(options.plan);
   }
+  FaultPlan plan = fault_catalogue();
   const std::size_t before = plan.cases.size();
-  std::erase_if(plan.cases, [](const FaultCase& one) {
-    return std::any_of(one.faults.begin(), one.faults.end(),
-                       [](const Fault& fault) { return info_of(fault.kind).in_process; });
+  std::erase_if(plan.cases, [&](const FaultCase& one) {
+    return !std::all_of(one.faults.begin(), one.faults.end(),
+                        [&](const Fault& fault) { return possible(fault, options.bus == "inproc"); });
   });
-  if (plan.cases.size() < before) {
-    fmt::print(stderr, "striker-sil: {} of {} cases need --bus inproc and are left out\n",
-               before - plan.cases.size(), before);
-  }
+  fmt::print(stderr, "striker-sil: {} of {} cases are for another --bus and left out\n",
+             before - plan.cases.size(), before);
   return plan;
 }
 

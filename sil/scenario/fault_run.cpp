@@ -78,7 +78,8 @@ Play play(const std::vector<TimedFault>& faults, double torque_scale, const Faul
                    .drives = drives,
                    .camera = camera,
                    .link = in_process ? static_cast<ControllerLink&>(*in_process) : *socket,
-                   .controller = in_process.get()},
+                   .controller = in_process.get(),
+                   .interface = options.interface},
                   faults, options.seed, torque_scale);
   Invariants invariants(seat.watched(), loop::built_in_robot, seat.reboots(), out_of_reach_of(faults));
   FaultTimeline timeline(seat.watched(), begin_of(faults, last_tick), last_tick);

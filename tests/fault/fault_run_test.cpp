@@ -54,7 +54,7 @@ TEST(FaultySeat, AnotherSeedIsAnotherBabble) {
                           [](const StampedFrame& a, const StampedFrame& b) { return a.frame == b.frame; }));
 }
 
-TEST(FaultySeat, WhatNeedsTheControllersProcessIsRefusedWithoutIt) {
+TEST(FaultySeat, WhatIsForAnotherBusIsRefused) {
   InProcessLink controller;
   const auto plant = make_plant(PlantKind::drive, 0, Role::forward);
   StrikerDrives drives;
@@ -66,6 +66,7 @@ TEST(FaultySeat, WhatNeedsTheControllersProcessIsRefusedWithoutIt) {
                          .link = controller,
                          .controller = nullptr};
   EXPECT_THROW(FaultySeat(parts, timed({usual(FaultKind::bus_off, 0, 10)}, 100), 1), std::runtime_error);
+  EXPECT_THROW(traffic(timed({usual(FaultKind::fd_frames, 0, 10)}, 100), 1), std::runtime_error);
   EXPECT_NO_THROW(FaultySeat(parts, timed({usual(FaultKind::loss, 0, 10)}, 100), 1));
 }
 

@@ -24,24 +24,6 @@ std::vector<can::Frame> forms_of_frames(const Fault& fault) {
   return forms;
 }
 
-class RandomFrames {
- public:
-  RandomFrames(const Fault& fault, const Random& random) : forms_(forms_of_frames(fault)), random_(random) {}
-
-  [[nodiscard]] can::Frame draw() {
-    can::Frame frame = forms_[random_.below(forms_.size())];
-    std::uint64_t bytes = random_.next();
-    for (std::size_t i = 0; i < frame.length; ++i, bytes >>= 8U) {
-      frame.data[i] = static_cast<std::uint8_t>(bytes & 0xFFU);
-    }
-    return frame;
-  }
-
- private:
-  std::vector<can::Frame> forms_;
-  Random random_;
-};
-
 void put_before(const std::vector<can::Frame>& injected, std::vector<can::Frame>& frames) {
   frames.insert(frames.begin(), injected.begin(), injected.end());
 }
@@ -137,6 +119,18 @@ class Copies final : public FrameFault {
 };
 
 }  // namespace
+
+RandomFrames::RandomFrames(const Fault& fault, const Random& random)
+    : forms_(forms_of_frames(fault)), random_(random) {}
+
+can::Frame RandomFrames::draw() {
+  can::Frame frame = forms_[random_.below(forms_.size())];
+  std::uint64_t bytes = random_.next();
+  for (std::size_t i = 0; i < frame.length; ++i, bytes >>= 8U) {
+    frame.data[i] = static_cast<std::uint8_t>(bytes & 0xFFU);
+  }
+  return frame;
+}
 
 std::unique_ptr<FrameFault> make_injected_frames(const TimedFault& fault, const Random& random) {
   switch (fault.fault.kind) {

@@ -7,6 +7,17 @@
 
 namespace striker::sil {
 
+// Random bytes in frames that the fault concerns, each of its message's length.
+class RandomFrames {
+ public:
+  RandomFrames(const Fault& fault, const Random& random);
+  [[nodiscard]] can::Frame draw();
+
+ private:
+  std::vector<can::Frame> forms_;
+  Random random_;
+};
+
 [[nodiscard]] std::unique_ptr<FrameFault> make_injected_frames(const TimedFault& fault, const Random& random);
 
 }  // namespace striker::sil

@@ -126,6 +126,12 @@ void add_forgeries(Catalogue& all) {
   all.add("babble on WheelState", babble, babbled<can::WheelState>(8));
 }
 
+void add_foreign(Catalogue& all) {
+  all.add("remote frames", remote_frames);
+  all.add("extended frames", extended_frames);
+  all.add("CAN FD frames", fd_frames);
+}
+
 void add_node(Catalogue& all) {
   all.add("off the bus", bus_off);
   all.add("off the bus for 50 ms", bus_off, for_ms(50));
@@ -196,6 +202,7 @@ FaultPlan fault_catalogue() {
   add_times(all);
   add_replays(all);
   add_forgeries(all);
+  add_foreign(all);
   add_node(all);
   add_clock(all);
   add_stops(all);

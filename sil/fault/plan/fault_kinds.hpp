@@ -34,6 +34,9 @@ enum class FaultKind : std::uint8_t {
   reorder,
   babble,
   emergency_stop,
+  remote_frames,
+  extended_frames,
+  fd_frames,
   stall,
   bus_off,
   error_passive,
@@ -85,6 +88,7 @@ struct FaultKindInfo {
   FaultPlace place;
   std::string_view does;
   bool in_process = false;  // it needs the controller in the simulator's process
+  bool real_bus = false;    // it needs a bus of SocketCAN: in process such frames do not exist
   bool at_once = false;     // it happens in the first tick of its window
   MessageParameter message = MessageParameter::none;
   bool wheel = false;

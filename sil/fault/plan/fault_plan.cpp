@@ -32,6 +32,11 @@ Fault usual(FaultKind kind, std::int32_t from_ms, std::int32_t until_ms) {
           .value = info.value.otherwise};
 }
 
+bool possible(const Fault& fault, bool in_process) {
+  const FaultKindInfo& info = info_of(fault.kind);
+  return in_process ? !info.real_bus : !info.in_process;
+}
+
 std::string message_name(std::uint16_t identifier) {
   std::string name = fmt::format("0x{:03x}", identifier);
   can::for_each_layout([&](const auto& message) {

@@ -72,6 +72,9 @@ struct TimedFault {
 // A fault of this kind with the table's values, from the first decision on.
 [[nodiscard]] Fault usual(FaultKind kind, std::int32_t from_ms, std::int32_t until_ms);
 
+// On a bus in process, or of SocketCAN.
+[[nodiscard]] bool possible(const Fault& fault, bool in_process);
+
 // The name of the message with this identifier, and back.
 [[nodiscard]] std::string message_name(std::uint16_t identifier);
 [[nodiscard]] std::optional<std::uint16_t> identifier_of(std::string_view message);

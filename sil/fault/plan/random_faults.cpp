@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "firmware/can/messages.hpp"
@@ -41,8 +43,16 @@ double rounded(double value) {
   return std::round(value * 100.0) / 100.0;
 }
 
+std::vector<FaultKindInfo> kinds_in_process() {
+  std::vector<FaultKindInfo> kinds;
+  const auto all = fault_kinds();
+  std::copy_if(all.begin(), all.end(), std::back_inserter(kinds),
+               [](const FaultKindInfo& info) { return !info.real_bus; });
+  return kinds;
+}
+
 Fault draw_fault(Random& random) {
-  const auto kinds = fault_kinds();
+  static const std::vector<FaultKindInfo> kinds = kinds_in_process();
   const FaultKindInfo& info = kinds[random.below(kinds.size())];
   Fault fault = usual(info.kind, 0, 0);
   fault.from_ms = static_cast<std::int32_t>(random.uniform(earliest_ms, latest_ms));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random cases for a campaign: one to three faults of any kind, at any time of an episode, for a random robot.
+// Random cases for a campaign: one to three faults of any kind that there is in process, at any time of an episode, for a random robot.
 #pragma once
 
 #include <cstdint>
