@@ -196,13 +196,14 @@ TEST(Invariants, ARimFarBeyondItsSpeedIsSeen) {
   run.expect(Invariant::runaway);
 }
 
-TEST(Invariants, OnlyARecordingIsOutOfReach) {
+TEST(Invariants, ARecordingAndADelayOnTheWayAreOutOfReach) {
   TimedFault replay = fault_of(FaultKind::replay, 0, 1);
   replay.fault.message = identifier<can::WheelState>;
   replay.fault.count = 11;
-  EXPECT_TRUE(out_of_reach_of({replay}).empty());
+  EXPECT_TRUE(out_of_reach_of({replay}).invariants.empty());
   replay.fault.count = 12;
-  EXPECT_EQ(out_of_reach_of({replay}), std::vector{Invariant::stale_wheels});
+  EXPECT_EQ(out_of_reach_of({replay}).invariants, std::vector{Invariant::stale_wheels});
+  EXPECT_EQ(out_of_reach_of({replay, fault_of(FaultKind::delay, 0, 1)}).lateness_ticks, 5U);
 }
 
 }  // namespace

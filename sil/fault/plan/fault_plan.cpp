@@ -34,7 +34,9 @@ Fault usual(FaultKind kind, std::int32_t from_ms, std::int32_t until_ms) {
 
 bool possible(const Fault& fault, bool in_process) {
   const FaultKindInfo& info = info_of(fault.kind);
-  return in_process ? !info.real_bus : !info.in_process;
+  const bool of_lockstep =
+      fault.message == can::layout<can::Sync>.info.id || fault.message == can::layout<can::EndOfTick>.info.id;
+  return in_process ? !info.real_bus : !info.in_process && !of_lockstep;
 }
 
 std::string message_name(std::uint16_t identifier) {

@@ -72,7 +72,8 @@ struct TimedFault {
 // A fault of this kind with the table's values, from the first decision on.
 [[nodiscard]] Fault usual(FaultKind kind, std::int32_t from_ms, std::int32_t until_ms);
 
-// On a bus in process, or of SocketCAN.
+// On a bus in process, or of SocketCAN. There a simulator in lockstep waits for a second for each answer: what hits
+// Sync or EndOfTick is for a bus in process.
 [[nodiscard]] bool possible(const Fault& fault, bool in_process);
 
 // The name of the message with this identifier, and back.

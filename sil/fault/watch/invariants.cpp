@@ -75,26 +75,32 @@ void Invariants::HonestFrames::arrive(const can::Frame& frame) {
   }
 }
 
-std::vector<Invariant> out_of_reach_of(const std::vector<TimedFault>& faults) {
-  std::vector<Invariant> result;
-  for (const TimedFault& one : faults) {
-    const bool recording =
-        one.fault.kind == FaultKind::replay && one.fault.count >= can::slow_window.least_correct;
-    const bool long_one = recording && one.fault.count >= can::fast_window.least_correct;
-    if (recording && (one.fault.message == can::layout<can::VisionPose>.info.id ||
-                      one.fault.message == can::layout<can::VisionBall>.info.id)) {
-      result.push_back(Invariant::stale_vision);
-    } else if (long_one && one.fault.message == can::layout<can::WheelState>.info.id) {
-      result.push_back(Invariant::stale_wheels);
-    } else if (long_one && one.fault.message == can::layout<can::WheelCommand>.info.id) {
-      result.insert(result.end(), {Invariant::stale_command, Invariant::runaway});
+OutOfReach out_of_reach_of(const std::vector<TimedFault>& faults) {
+  OutOfReach result;
+  for (const auto& [fault, from, until] : faults) {
+    if (fault.kind == FaultKind::delay || fault.kind == FaultKind::jitter) {
+      result.lateness_ticks += fault.count;
+    } else if (fault.kind == FaultKind::replay) {
+      const auto is = [&](std::uint16_t identifier) { return fault.message == identifier; };
+      const bool slow = is(can::layout<can::VisionPose>.info.id) || is(can::layout<can::VisionBall>.info.id);
+      const std::uint32_t recording = slow ? can::slow_window.least_correct : can::fast_window.least_correct;
+      if (fault.count < recording) {
+        continue;
+      }
+      if (slow) {
+        result.invariants.push_back(Invariant::stale_vision);
+      } else if (is(can::layout<can::WheelState>.info.id)) {
+        result.invariants.push_back(Invariant::stale_wheels);
+      } else if (is(can::layout<can::WheelCommand>.info.id)) {
+        result.invariants.insert(result.invariants.end(), {Invariant::stale_command, Invariant::runaway});
+      }
     }
   }
   return result;
 }
 
 Invariants::Invariants(const WatchedParts& parts, const core::RobotProfile& robot,
-                       std::vector<std::uint32_t> reboots, std::vector<Invariant> out_of_reach)
+                       std::vector<std::uint32_t> reboots, OutOfReach out_of_reach)
     : parts_(parts), robot_(robot), reboots_(std::move(reboots)), out_of_reach_(std::move(out_of_reach)) {}
 
 void Invariants::end_tick(const Snapshot& snapshot) {
@@ -217,18 +223,20 @@ void Invariants::check_freshness() {
     return;
   }
   const std::string what = torques(command_);
+  const std::uint32_t late = out_of_reach_.lateness_ticks;
   if (stop_tick_ && tick_ - *stop_tick_ > most_ticks_after_stop) {
     violate(Invariant::stop_ignored,
             fmt::format("{}, {} ms after an emergency stop", what, tick_ - *stop_tick_));
   }
-  if (wheels_.older_than(oldest_wheels_ticks, tick_)) {
+  if (wheels_.older_than(oldest_wheels_ticks + late, tick_)) {
     violate(Invariant::stale_wheels, fmt::format("{}, wheel state {}", what, age(wheels_.arrived, tick_)));
   }
-  if (pose_.older_than(oldest_vision_ticks, tick_) || ball_.older_than(oldest_vision_ticks, tick_)) {
+  if (pose_.older_than(oldest_vision_ticks + late, tick_) ||
+      ball_.older_than(oldest_vision_ticks + late, tick_)) {
     violate(Invariant::stale_vision,
             fmt::format("{}, pose {}, ball {}", what, age(pose_.arrived, tick_), age(ball_.arrived, tick_)));
   }
-  if (!sync_tick_ || tick_ - *sync_tick_ > oldest_sync_ticks) {
+  if (!sync_tick_ || tick_ - *sync_tick_ > oldest_sync_ticks + late) {
     violate(Invariant::stale_sync, fmt::format("{}, SYNC {}", what, age(sync_tick_, tick_)));
   }
 }
@@ -239,7 +247,7 @@ void Invariants::check_drives() {
   }
   const WheelOrders& orders = parts_.drives.orders();
   const bool driven = !parts_.drives.cut(tick_) && (orders[0].torque_Nm != 0.0 || orders[1].torque_Nm != 0.0);
-  if (driven && commands_.older_than(oldest_command_ticks, tick_)) {
+  if (driven && commands_.older_than(oldest_command_ticks + out_of_reach_.lateness_ticks, tick_)) {
     violate(Invariant::stale_command,
             fmt::format("the drives hold {:.3f} and {:.3f} N m, honest command {}", orders[0].torque_Nm,
                         orders[1].torque_Nm, age(commands_.arrived, tick_)));
@@ -252,7 +260,8 @@ void Invariants::check_drives() {
 }
 
 void Invariants::violate(Invariant invariant, const std::string& text) {
-  if (std::find(out_of_reach_.begin(), out_of_reach_.end(), invariant) != out_of_reach_.end()) {
+  const auto& unasserted = out_of_reach_.invariants;
+  if (std::find(unasserted.begin(), unasserted.end(), invariant) != unasserted.end()) {
     return;
   }
   violated_now_ = true;

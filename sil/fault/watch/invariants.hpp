@@ -77,17 +77,23 @@ struct WatchedParts {
   const Plant& plant;            // without its faults
 };
 
-// A recording of at least as many frames of a message as its receiver asks for, played again and again, is the sender
-// itself to any check but authentication (firmware/can/e2e_state.hpp): what it makes stale stays so until something
-// else notices.
-[[nodiscard]] std::vector<Invariant> out_of_reach_of(const std::vector<TimedFault>& faults);
+// What no check of a frame can find, so that it is not asserted.
+struct OutOfReach {
+  // A recording of at least as many frames of a message as its receiver asks for, played again and again, is the
+  // sender itself to any check but authentication (firmware/can/e2e_state.hpp): what it makes stale stays so until
+  // something else notices.
+  std::vector<Invariant> invariants = {};
+  // What was late on the way, in order, does not show it: every age may be greater by this.
+  std::uint32_t lateness_ticks = 0;
+};
+
+[[nodiscard]] OutOfReach out_of_reach_of(const std::vector<TimedFault>& faults);
 
 class Invariants final : public Observer {
  public:
-  // In the ticks of `reboots` the controller boots anew, and what it told before is void. `out_of_reach` are not
-  // checked: no check of a frame can hold them against these faults (out_of_reach_of).
+  // In the ticks of `reboots` the controller boots anew, and what it told before is void.
   Invariants(const WatchedParts& parts, const core::RobotProfile& robot,
-             std::vector<std::uint32_t> reboots = {}, std::vector<Invariant> out_of_reach = {});
+             std::vector<std::uint32_t> reboots = {}, OutOfReach out_of_reach = {});
 
   void end_tick(const Snapshot& snapshot) override;
 
@@ -121,7 +127,7 @@ class Invariants final : public Observer {
   WatchedParts parts_;
   core::RobotProfile robot_;
   std::vector<std::uint32_t> reboots_;
-  std::vector<Invariant> out_of_reach_;
+  OutOfReach out_of_reach_;
   std::uint32_t tick_ = 0;
   std::vector<Violation> violations_;
   std::uint64_t ticks_violated_ = 0;
