@@ -21,7 +21,9 @@ void define(CLI::App& campaign, CampaignOptions& options) {
   campaign.add_option("--jobs", options.jobs, "processes; the results are the same")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  campaign.add_option("--seed", options.seed, "of the faults, robots and episodes")->capture_default_str();
+  campaign.add_option("--seed", options.seed, "of the faults, robots and episodes")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53U))
+      ->capture_default_str();
   campaign
       .add_option("--out", options.directory,
                   "directory of runs.jsonl and of a plan for each violation; runs that are there are kept")

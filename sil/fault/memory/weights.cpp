@@ -19,16 +19,15 @@ namespace {
 
 template <class Layer>
 std::span<std::byte> writable(const Layer& layer) {
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto begin = reinterpret_cast<std::uintptr_t>(&layer);
-  const auto from = begin / page * page;
-  const auto until = (begin + sizeof layer + page - 1) / page * page;
-  if (mprotect(reinterpret_cast<void*>(from), until - from, PROT_READ | PROT_WRITE) != 0) {
+  const auto bytes = std::as_writable_bytes(std::span(const_cast<Layer*>(&layer), 1));
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(bytes.data()) % page;
+  if (mprotect(bytes.data() - before, before + bytes.size(), PROT_READ | PROT_WRITE) != 0) {
     throw std::runtime_error(
         fmt::format("the policy's weights cannot be made writable ({}): leave weight_flips out",
                     std::generic_category().message(errno)));
   }
-  return std::as_writable_bytes(std::span(const_cast<Layer*>(&layer), 1));
+  return bytes;
 }
 
 }  // namespace

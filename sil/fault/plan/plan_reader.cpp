@@ -3,10 +3,10 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
-#include <limits>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -203,13 +203,12 @@ Fault read_fault(const TableReader& reader, std::uint64_t number) {
 
 FaultSetup read_setup(const TableReader& reader) {
   constexpr std::array poses = {std::string_view("origin"), std::string_view("anywhere")};
-  constexpr double greatest = static_cast<double>(std::numeric_limits<std::int32_t>::max());
+  constexpr double greatest = 0x1p53;
   FaultSetup setup;
   if (reader.has("plant")) {
-    std::vector<std::string_view> names;
-    for (const PlantKind kind : plant_kinds) {
-      names.push_back(name_of(kind));
-    }
+    std::array<std::string_view, plant_kinds.size()> names;
+    std::transform(plant_kinds.begin(), plant_kinds.end(), names.begin(),
+                   [](PlantKind kind) { return name_of(kind); });
     setup.plant = plant_kinds[reader.choice("plant", names)];
   }
   if (reader.has("pose")) {

@@ -77,7 +77,8 @@ void Invariants::HonestFrames::arrive(const can::Frame& frame) {
 
 OutOfReach out_of_reach_of(const std::vector<TimedFault>& faults) {
   OutOfReach result;
-  for (const auto& [fault, from, until] : faults) {
+  for (const TimedFault& one : faults) {
+    const Fault& fault = one.fault;
     if (fault.kind == FaultKind::delay || fault.kind == FaultKind::jitter) {
       result.lateness_ticks += fault.count;
     } else if (fault.kind == FaultKind::replay) {
