@@ -21,7 +21,7 @@ class MessageReceiver {
   // `tick` is now; the frame came `frame.age_ms` earlier. Accepted, all of `message` is replaced.
   [[nodiscard]] Verdict take(const Frame& frame, std::uint32_t tick, Message& message) {
     const std::uint32_t received_tick = tick - frame.age_ms;
-    if (heard_.ever() && !heard_.within(received_tick, info.timeout_ms)) {
+    if (heard_.ever() && static_cast<std::int32_t>(received_tick - heard_.tick()) > timeout_ticks) {
       machine_.forget();
     }
     Message taken;
@@ -43,7 +43,8 @@ class MessageReceiver {
 
  private:
   static constexpr const MessageInfo& info = layout<Message>.info;
-  static_assert(info.timeout_ms > 0, "a message on events has no sequence to check");
+  static constexpr std::int32_t timeout_ticks = info.timeout_ms;
+  static_assert(timeout_ticks > 0, "a message on events has no sequence to check");
 
   E2eMachine<window_for(info.period_ms)> machine_;
   core::Freshness heard_;

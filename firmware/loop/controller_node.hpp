@@ -27,6 +27,7 @@ namespace striker::loop {
 struct GateReport {
   std::uint32_t limits = 0;
   std::uint32_t blocked = 0;
+  bool has_blocked = false;  // and was not cleared since: a fault
 };
 
 template <class ControllerType, can::DriveProtocol DrivesType>
@@ -46,11 +47,12 @@ class ControllerNode {
     lost_frames_ = std::min(lost_frames_ + tick.lost_frames, greatest_count);
     frames.clear();
     core::Actions actions;
-    controller_.step({.tick = tick.number,
-                      .percepts = receiver_.take(tick.frames, tick.number, drives_),
-                      .port_faults = tick.port_faults,
-                      .stop = tick.stop},
-                     actions);
+    controller_.step(
+        {.tick = tick.number,
+         .percepts = receiver_.take(tick.frames, tick.number, drives_),
+         .port_faults = tick.port_faults | (gate.has_blocked ? core::set_of(core::Fault::gate_blocked) : 0),
+         .stop = tick.stop},
+        actions);
     reporter_.report(tick.number, actions, receiver_.ignored(),
                      {.timing = tick.timing,
                       .limits = gate.limits,

@@ -35,15 +35,15 @@ class GatedNode {
       : node_(robot, seed), gate_(gate_limits_of(robot)) {}
 
   // Replaces what is in `frames`.
-  void step(Tick tick, can::FrameList& frames) {
+  void step(const Tick& tick, can::FrameList& frames) {
     if (tick.restart) {
       gate_.restart();
     }
     gate_.take(tick.frames, tick.number);
-    if (gate_.has_blocked()) {
-      tick.port_faults |= core::set_of(core::Fault::gate_blocked);
-    }
-    node_.step(tick, {.limits = gate_.active_limits(), .blocked = gate_.blocked()}, frames);
+    node_.step(
+        tick,
+        {.limits = gate_.active_limits(), .blocked = gate_.blocked(), .has_blocked = gate_.has_blocked()},
+        frames);
     gate_.check(frames, tick.number);
   }
 

@@ -6,6 +6,9 @@ set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES STRIKER_BOARD)
 
+# A compiler cache does not bring back the .ci files that bare_metal/stack_usage.py reads, whatever the environment says.
+set(CMAKE_CXX_COMPILER_LAUNCHER "" CACHE STRING "")
+
 include(${CMAKE_CURRENT_LIST_DIR}/boards/read_board.cmake)
 striker_read_board("${STRIKER_BOARD}")
 

@@ -153,7 +153,7 @@ class CommandGate {
     } else {
       shut_ = true;
       blocked_since_clear_ = true;
-      blocked_ = std::min(blocked_ + 1, 255U);
+      blocked_ = std::min<std::uint32_t>(blocked_ + 1, 255);
     }
     torque_ = passed.torque;
     if (!(passed == wanted)) {

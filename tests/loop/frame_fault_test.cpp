@@ -99,7 +99,7 @@ TEST(FrameFault, AnIgnoredWheelStateDoesNotFeedItsWatchdog) {
     rig.extra.push_back(bad);
     rig.tick();
   }
-  EXPECT_EQ(rig.fault(), core::Fault::wheel_state_lost);
+  EXPECT_EQ(rig.fault(), core::Fault::wheel_state_invalid) << "they come, and are wrong";
 }
 
 TEST(FrameFault, CountsStayAt255) {

@@ -22,6 +22,7 @@ class NodeRig {
   bool send_vision = true;
   bool send_wheels = true;
   std::int32_t ball_y_quarter_mm = 0;  // where it begins to come straight to the robot
+  std::int32_t robot_um = 0;           // where it stands, along x
   can::WheelState wheels;
   std::vector<can::Frame> extra;      // for the next tick only
   std::vector<can::Frame> delivered;  // in the last tick
@@ -38,7 +39,8 @@ class NodeRig {
       const auto frame = static_cast<std::int32_t>(now_ / 50 % 16);
       const auto phase = static_cast<std::int32_t>(now_ % 8000);
       const std::int32_t x_quarter_mm = 8000 - (phase < 4000 ? phase : 8000 - phase);
-      frames.push_back(can::send(can::VisionPose{.frame = frame}, pose_counter_));
+      frames.push_back(can::send(
+          can::VisionPose{.frame = frame, .x_quarter_mm = robot_um / can::um_per_quarter_mm}, pose_counter_));
       frames.push_back(can::send(can::VisionBall{.frame = frame,
                                                  .x_quarter_mm = x_quarter_mm,
                                                  .y_quarter_mm = ball_y_quarter_mm * x_quarter_mm / 8000},
@@ -65,6 +67,9 @@ class NodeRig {
       }
     }
   }
+
+  // Time passes without a step.
+  void skip(std::uint32_t ticks) { now_ += ticks; }
 
   void run(std::uint32_t ticks) {
     for (std::uint32_t i = 0; i < ticks; ++i) {

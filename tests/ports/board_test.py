@@ -18,8 +18,8 @@ TOOLCHAIN = f"-DCMAKE_TOOLCHAIN_FILE={image_test.ROOT}/firmware/ports/arm-none-e
 # A second board with a Cortex-M4, outside the tree, with a CAN controller of its own.
 FIELDS = {
     "NAME": "elsewhere", "CPU": "cortex-m4", "FLASH_ORIGIN": "0x08000000", "FLASH": "512K", "RAM_ORIGIN": "0x20000000",
-    "RAM": "96K", "CLOCK_HZ": "170000000", "SOURCES": "cortex_m/startup.cpp", "CLOCK": "cortex_m/systick_clock.cpp",
-    "CAN": "own_can.cpp", "DEFINITIONS": "OWN_CAN=0x40006400",
+    "RAM": "96K", "CLOCK_HZ": "170000000", "INTERRUPTS": "102", "SOURCES": "cortex_m/startup.cpp",
+    "CLOCK": "cortex_m/systick_clock.cpp", "CAN": "own_can.cpp", "WATCHDOG": "none", "DEFINITIONS": "OWN_CAN=0x40006400",
 }
 OWN_CAN = """
 #include "firmware/ports/bare_metal/can_bus.hpp"
@@ -75,6 +75,12 @@ class Board(unittest.TestCase):
         self.assertRegex(symbols, r"(?m)^0800[0-9a-f]{4} . reset$")
         self.assertRegex(symbols, r"striker::bare_metal::try_send_can")
         self.assertNotRegex(symbols, r"uart::|Slcan")
+        for changes, told in (({"RAM_ORIGIN": "0x20000400"}, "RAM_ORIGIN has to be a multiple of 4 KB"),
+                              ({"RAM_ORIGIN": "0x10000000"}, "has its RAM above")):
+            self.write(**changes)
+            done = run("cmake", "--build", self.build_dir, "--target", "striker-controller")
+            self.assertNotEqual(done.returncode, 0, changes)
+            self.assertIn(told, done.stdout)
 
     def test_a_build_folder_stays_with_its_processor(self):
         self.write()
@@ -93,6 +99,8 @@ class Board(unittest.TestCase):
             ({"FLASH_ORIGIN": "08000000"}, "FLASH_ORIGIN is '08000000', but has to be an address"),
             ({"RAM": "96kB"}, "RAM is '96kB', but has to be a size"),
             ({"CLOCK_HZ": "170MHz"}, "CLOCK_HZ is '170MHz'"),
+            ({"INTERRUPTS": "many"}, "INTERRUPTS is 'many', but has to be a number of lines"),
+            ({"WATCHDOG": "own.cpp"}, "WATCHDOG: no own.cpp, neither in the board's folder nor in"),
             ({"CAN": "none.cpp"}, "CAN: no none.cpp, neither in the board's folder nor in"),
             ({"CAN": "slcan"}, "UART is missing: CAN slcan speaks over it"),
             ({"UART": "devices/cmsdk_uart.cpp"}, "UART belongs to CAN slcan alone"),

@@ -15,9 +15,11 @@ const std::filesystem::path file = std::filesystem::temp_directory_path() / "str
 
 TEST(CandumpLog, AFrameALineWithItsStampAndItsRobotsBus) {
   const std::array<StampedFrame, 2> zeroth = {
-      StampedFrame{{0x050, 8, {0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88}}, 12'345'000'999},
+      StampedFrame{{.id = 0x050, .length = 8, .data = {0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88}},
+                   12'345'000'999},
       StampedFrame{{0x7FF, 0, {}}, 12'345'001'000}};
-  const std::array<StampedFrame, 1> first = {StampedFrame{{0x00A, 2, {0x0A, 0xF0}}, 0}};
+  const std::array<StampedFrame, 1> first = {
+      StampedFrame{{.id = 0x00A, .length = 2, .data = {0x0A, 0xF0}}, 0}};
   const std::array robots = {RobotSnapshot{.pose = {}, .velocity_m_s = {}, .frames = zeroth},
                              RobotSnapshot{.pose = {}, .velocity_m_s = {}, .frames = first}};
   CandumpLog log(file);

@@ -39,8 +39,8 @@
 //
 // Interrupts and threads. All four are called from the main loop alone, never from an interrupt. A driver
 // that polls needs no interrupt. One that takes some protects what it shares with them, keeps them below 5
-// us, brings a vector table of its own (cortex_m/startup.cpp has the processor's fifteen exceptions), and
-// adds their stack to what stack_usage.py finds: that knows tick_interrupt alone.
+// us, brings a start-up file of its own (in cortex_m/startup.cpp every interrupt but the tick ends in a fault),
+// and adds their stack to what stack_usage.py finds: that knows tick_interrupt alone.
 #pragma once
 
 #include "firmware/can/bus_health.hpp"
@@ -49,7 +49,8 @@
 namespace striker::bare_metal {
 
 // The first call of main: clocks, pins, bit timing, filters; then the controller joins the bus, which
-// takes 11 recessive bits. Does not wait for a bus that is not there.
+// takes 11 recessive bits. Does not wait for a bus that is not there. The processor may have been reset in
+// the middle of a transmission: frames that the controller still holds from before are dropped.
 void start_can();
 
 // The oldest frame received. False, with `frame` as it was, if nothing waits. Never waits; a few

@@ -17,6 +17,7 @@ namespace striker::bare_metal {
 namespace {
 
 constexpr std::uint32_t paint = 0xC5C5C5C5;
+constexpr int guarding_words = 4;
 
 }  // namespace
 
@@ -32,6 +33,16 @@ void prepare_memory() {
   for (volatile std::uint32_t* to = &stack_bottom; to < here - 16; ++to) {
     *to = paint;
   }
+}
+
+bool stack_is_intact() {
+  const volatile std::uint32_t* word = &stack_bottom;
+  for (int i = 0; i < guarding_words; ++i) {
+    if (word[i] != paint) {
+      return false;
+    }
+  }
+  return true;
 }
 
 std::uint32_t stack_high_water_bytes() {

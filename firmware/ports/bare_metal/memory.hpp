@@ -9,6 +9,9 @@ namespace striker::bare_metal {
 // Copies .data, clears .bss, and paints the stack below the caller.
 void prepare_memory();
 
+// The lowest words of the stack still hold the paint: it has never been full since reset. Four loads.
+[[nodiscard]] bool stack_is_intact();
+
 // The stack that was in use at its deepest since reset, in bytes.
 [[nodiscard]] std::uint32_t stack_high_water_bytes();
 

@@ -11,10 +11,12 @@
 #     RAM_ORIGIN 0x20000000
 #     RAM 4M
 #     CLOCK_HZ 25000000           what CLOCK counts; sources see it as STRIKER_CLOCK_HZ
+#     INTERRUPTS 32               lines of its interrupt controller: a vector for each, see cortex_m/startup.cpp
 #     SOURCES file...             in every image: reset, vector table, and what hardware needs before main
 #     CLOCK file...               implements bare_metal/clock.hpp
 #     CAN file... | slcan         implements bare_metal/can_bus.hpp; slcan does it over UART
 #     UART file...                implements bare_metal/uart.hpp; only slcan wants it
+#     WATCHDOG file... | none     implements bare_metal/watchdog.hpp; none: nothing ends a hang
 #     DEFINITIONS NAME=VALUE...   for the sources above
 #     QEMU_MACHINE mps2-an386     QEMU's name of the board; a board without one is built, but not emulated
 #     QEMU_SYSTEM program         qemu-system-arm by default
@@ -54,15 +56,15 @@ function(striker_known_boards variable)
   set(${variable} ${files} PARENT_SCOPE)
 endfunction()
 
-set(striker_board_words NAME CPU LABEL FLASH_ORIGIN FLASH RAM_ORIGIN RAM CLOCK_HZ QEMU_MACHINE QEMU_SYSTEM QEMU_POWER_ON)
-set(striker_board_lists SOURCES CLOCK CAN UART DEFINITIONS QEMU_ARGUMENTS)
+set(striker_board_words NAME CPU LABEL FLASH_ORIGIN FLASH RAM_ORIGIN RAM CLOCK_HZ INTERRUPTS QEMU_MACHINE QEMU_SYSTEM QEMU_POWER_ON)
+set(striker_board_lists SOURCES CLOCK CAN UART WATCHDOG DEFINITIONS QEMU_ARGUMENTS)
 
 function(striker_add_board)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "" "${striker_board_words}" "${striker_board_lists}")
   if(ARG_UNPARSED_ARGUMENTS)
     striker_board_error("'${ARG_UNPARSED_ARGUMENTS}' belongs to no field")
   endif()
-  foreach(field NAME CPU FLASH_ORIGIN FLASH RAM_ORIGIN RAM CLOCK_HZ SOURCES CLOCK CAN)
+  foreach(field NAME CPU FLASH_ORIGIN FLASH RAM_ORIGIN RAM CLOCK_HZ INTERRUPTS SOURCES CLOCK CAN WATCHDOG)
     if("${ARG_${field}}" STREQUAL "")
       striker_board_error("${field} is missing")
     endif()
@@ -92,6 +94,12 @@ function(striker_add_board)
   elseif(ARG_UART)
     striker_board_error("UART belongs to CAN slcan alone: add its file to CAN, or leave it out")
   endif()
+  if(NOT ARG_INTERRUPTS MATCHES "^[0-9]+$")
+    striker_board_error("INTERRUPTS is '${ARG_INTERRUPTS}', but has to be a number of lines such as 32")
+  endif()
+  if(ARG_WATCHDOG STREQUAL "none")
+    set(ARG_WATCHDOG no_watchdog.cpp)
+  endif()
   if(NOT ARG_LABEL)
     set(ARG_LABEL ${ARG_CPU})
   endif()
@@ -101,7 +109,7 @@ function(striker_add_board)
   if(NOT ARG_QEMU_ARGUMENTS)
     set(ARG_QEMU_ARGUMENTS -kernel {image})
   endif()
-  foreach(field SOURCES CLOCK CAN UART)
+  foreach(field SOURCES CLOCK CAN UART WATCHDOG)
     striker_find_sources(ARG_${field} ${field})
   endforeach()
   foreach(field ${striker_board_words} ${striker_board_lists})

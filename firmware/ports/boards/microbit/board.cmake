@@ -9,8 +9,10 @@ striker_add_board(
   RAM_ORIGIN 0x20000000
   RAM 16K
   CLOCK_HZ 16000000
+  INTERRUPTS 32
   SOURCES cortex_m/startup.cpp
   CLOCK cortex_m/systick_clock.cpp
   CAN slcan
   UART nrf_uart.cpp
+  WATCHDOG nrf_watchdog.cpp
   QEMU_MACHINE microbit)

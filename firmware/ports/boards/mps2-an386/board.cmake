@@ -9,9 +9,11 @@ striker_add_board(
   RAM_ORIGIN 0x20000000
   RAM 4M
   CLOCK_HZ 25000000
+  INTERRUPTS 32
   SOURCES cortex_m/startup.cpp
   CLOCK cortex_m/systick_clock.cpp
   CAN slcan
   UART devices/cmsdk_uart.cpp
-  DEFINITIONS STRIKER_UART=0x40004000
+  WATCHDOG devices/cmsdk_watchdog.cpp
+  DEFINITIONS STRIKER_UART=0x40004000 STRIKER_WATCHDOG=0x40008000 STRIKER_WATCHDOG_HZ=25000000
   QEMU_MACHINE mps2-an386)

@@ -9,9 +9,11 @@ striker_add_board(
   RAM_ORIGIN 0x38000000
   RAM 4M
   CLOCK_HZ 20000000
+  INTERRUPTS 124
   SOURCES cortex_m/startup.cpp
   CLOCK cortex_m/systick_clock.cpp
   CAN slcan
   UART devices/cmsdk_uart.cpp
-  DEFINITIONS STRIKER_UART=0x50200000
+  WATCHDOG devices/cmsdk_watchdog.cpp
+  DEFINITIONS STRIKER_UART=0x50200000 STRIKER_WATCHDOG=0x50081000 STRIKER_WATCHDOG_HZ=20000000
   QEMU_MACHINE mps2-an505)

@@ -9,9 +9,11 @@ striker_add_board(
   RAM_ORIGIN 0x30000000
   RAM 512K
   CLOCK_HZ 32000000
+  INTERRUPTS 128
   SOURCES cortex_m/startup.cpp
   CLOCK cortex_m/systick_clock.cpp
   CAN slcan
   UART devices/cmsdk_uart.cpp
-  DEFINITIONS STRIKER_UART=0x59303000
+  WATCHDOG devices/cmsdk_watchdog.cpp
+  DEFINITIONS STRIKER_UART=0x59303000 STRIKER_WATCHDOG=0x5802E000 STRIKER_WATCHDOG_HZ=32000
   QEMU_MACHINE mps3-an547)

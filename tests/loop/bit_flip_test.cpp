@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every single bit of a controller's memory, flipped at several instants and in several situations: no torque
+// without being armed, no fault forgotten, no torque beyond the limit, and hardly a wrong torque that nobody notices.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "tests/loop/node_rig.hpp"
+
+namespace striker::loop {
+namespace {
+
+using core::State;
+using Controller = core::Controller<BuiltInPilot>;
+
+constexpr int watched_ticks = 300;
+
+// A rig whose wheels follow the torque, and whose camera sees where they took the robot.
+class FlippedRig : public NodeRig {
+ public:
+  void live() {
+    wheels.left_mm_s += command.left_torque_mNm / 36;
+    wheels.right_mm_s += command.right_torque_mNm / 36;
+    robot_um += (wheels.left_mm_s + wheels.right_mm_s) / 2;
+    tick();
+  }
+  // Where the node keeps its controller: the same bytes that a flip in RAM would hit.
+  unsigned char* memory() {
+    return reinterpret_cast<unsigned char*>(const_cast<Controller*>(&node.node().controller()));
+  }
+};
+
+struct Outcome {
+  int nothing = 0;
+  int fault = 0;
+  int wrong_undetected = 0;
+  int unarmed_torque = 0;
+  int fault_lost = 0;
+  int beyond_limit = 0;
+  std::map<std::size_t, int> wrong_bytes;
+};
+
+// What a tick shows from outside.
+struct Seen {
+  State state;
+  std::int32_t left_mNm;
+  std::int32_t right_mNm;
+};
+
+Seen look(const FlippedRig& rig) {
+  return {rig.state(), rig.command.left_torque_mNm, rig.command.right_torque_mNm};
+}
+
+void judge(const FlippedRig& from, const std::vector<Seen>& gold, std::size_t bit, Outcome& outcome) {
+  FlippedRig rig = from;
+  rig.memory()[bit / 8] ^= static_cast<unsigned char>(1U << (bit % 8));
+  bool wrong = false;
+  bool fault = false;
+  for (int i = 0; i < watched_ticks; ++i) {
+    rig.live();
+    const Seen seen = look(rig);
+    const Seen& honest = gold[static_cast<std::size_t>(i)];
+    const bool torque = seen.left_mNm != 0 || seen.right_mNm != 0;
+    outcome.unarmed_torque += honest.state != State::active && torque ? 1 : 0;
+    outcome.fault_lost += honest.state == State::fault && seen.state != State::fault ? 1 : 0;
+    const std::int32_t limit = built_in_robot.torque_limit_mNm;
+    outcome.beyond_limit += std::abs(seen.left_mNm) > limit || std::abs(seen.right_mNm) > limit ? 1 : 0;
+    fault = fault || (seen.state == State::fault && honest.state != State::fault);
+    wrong = wrong || (!fault && (seen.left_mNm != honest.left_mNm || seen.right_mNm != honest.right_mNm));
+  }
+  if (fault) {
+    ++outcome.fault;
+  } else if (wrong) {
+    ++outcome.wrong_undetected;
+    ++outcome.wrong_bytes[bit / 8];
+  } else {
+    ++outcome.nothing;
+  }
+}
+
+Outcome flip_every_bit(const FlippedRig& from) {
+  FlippedRig honest = from;
+  std::vector<Seen> gold;
+  for (int i = 0; i < watched_ticks; ++i) {
+    honest.live();
+    gold.push_back(look(honest));
+  }
+  Outcome outcome;
+  for (std::size_t bit = 0; bit < 8 * sizeof(Controller); ++bit) {
+    judge(from, gold, bit, outcome);
+  }
+  return outcome;
+}
+
+void expect_sound(const FlippedRig& from, const char* where) {
+  const Outcome outcome = flip_every_bit(from);
+  std::ostringstream bytes;
+  for (const auto& [byte, count] : outcome.wrong_bytes) {
+    bytes << " " << byte << " (" << count << ")";
+  }
+  std::printf("%s: of %zu bits %d without effect, %d a fault, %d wrong and unnoticed:%s\n", where,
+              8 * sizeof(Controller), outcome.nothing, outcome.fault, outcome.wrong_undetected,
+              bytes.str().c_str());
+  EXPECT_EQ(outcome.unarmed_torque, 0) << where;
+  EXPECT_EQ(outcome.fault_lost, 0) << where;
+  EXPECT_EQ(outcome.beyond_limit, 0) << where;
+  EXPECT_LE(outcome.wrong_undetected, static_cast<int>(8 * sizeof(Controller) / 100)) << where;
+}
+
+FlippedRig driving(std::uint32_t ticks) {
+  FlippedRig rig;
+  rig.run(210);
+  rig.mode(can::Mode::arm);
+  for (std::uint32_t i = 0; i < ticks; ++i) {
+    rig.live();
+  }
+  EXPECT_TRUE(rig.torque());
+  return rig;
+}
+
+TEST(BitFlip, WhileDrivingItIsNoticedBeforeItMatters) {
+  for (const std::uint32_t ticks : {137U, 139U, 150U}) {
+    expect_sound(driving(ticks), "driving");
+  }
+}
+
+TEST(BitFlip, UnarmedItNeverMoves) {
+  FlippedRig rig;
+  rig.run(210);
+  expect_sound(rig, "standby");
+}
+
+TEST(BitFlip, StoppedItStaysStopped) {
+  FlippedRig rig = driving(60);
+  rig.stop();
+  for (int i = 0; i < 300; ++i) {
+    rig.live();
+  }
+  ASSERT_EQ(rig.state(), State::fault);
+  expect_sound(rig, "stopped");
+}
+
+// The byte that holds the state, with every value that it could take.
+TEST(BitFlip, NoValueOfTheStateArms) {
+  FlippedRig rig;
+  rig.run(210);
+  unsigned char* const memory = rig.memory();
+  for (std::size_t byte = 0; byte < sizeof(Controller); ++byte) {
+    if (memory[byte] != static_cast<unsigned char>(State::standby)) {
+      continue;
+    }
+    for (int value = 0; value < 256; ++value) {
+      FlippedRig copy = rig;
+      copy.memory()[byte] = static_cast<unsigned char>(value);
+      copy.run(5);
+      ASSERT_NE(copy.state(), State::active) << byte << " " << value;
+      ASSERT_FALSE(copy.torque());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace striker::loop
