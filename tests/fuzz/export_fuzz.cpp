@@ -34,9 +34,11 @@ training::Parameters some_parameters(Bytes& bytes, int inputs) {
   return parameters;
 }
 
+// The first is one that play meets: no calibration is without motion.
 std::vector<training::RawState> some_states(Bytes& bytes, std::size_t inputs) {
-  std::vector<training::RawState> states(1 + bytes.u8() % 4);
-  for (training::RawState& state : states) {
+  std::vector<training::RawState> states(1, training::RawState(inputs, 1000));
+  for (int more = bytes.u8() % 4; more > 0; --more) {
+    training::RawState& state = states.emplace_back();
     for (std::size_t i = 0; i < inputs; ++i) {
       state.push_back(bytes.i16());
     }
