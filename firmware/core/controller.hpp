@@ -85,6 +85,12 @@ class Controller {
     seal_ = seal_of(now_);
   }
 
+  // Before the first step, where the seed is known at run time alone.
+  void seed_challenges(std::uint32_t seed) {
+    now_.consent = Consent(seed);
+    seal_ = seal_of(now_);
+  }
+
   // Logical time begins again, with a controller as from boot. A stop that was pressed is kept: only a power cycle
   // forgets it; and so is what only a reboot clears.
   void begin_anew() {
@@ -226,6 +232,13 @@ class Controller {
 
   // The only place where a state begins: faults get their stamp, and arming begins anew.
   void adopt(const Supervisor& next) {
+    if (!(next == now_.supervisor)) {
+      change_to(next);
+    }
+  }
+
+  // Apart from its callers, as few ticks need it.
+  [[gnu::noinline]] void change_to(const Supervisor& next) {
     if (next.fault != now_.supervisor.fault) {
       now_.fault_tick = now_.tick;
     }

@@ -12,13 +12,13 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 
 namespace striker::core {
 
+// Apart from its callers: unrolled, it is long.
 template <class State>
-[[nodiscard]] constexpr std::uint32_t seal_of(const State& state) {
+[[nodiscard, gnu::noinline]] constexpr std::uint32_t seal_of(const State& state) {
   static_assert(std::is_trivially_copyable_v<State> && std::has_unique_object_representations_v<State>,
                 "sealed state has no padding");
   static_assert(sizeof(State) % sizeof(std::uint32_t) == 0);
@@ -34,7 +34,7 @@ template <class State>
 #pragma GCC unroll 16
   for (std::size_t i = 0; i < words; ++i) {
     std::uint32_t word = 0;
-    std::memcpy(&word, __builtin_assume_aligned(bytes + sizeof word * i, sizeof word), sizeof word);
+    __builtin_memcpy(&word, __builtin_assume_aligned(bytes + sizeof word * i, sizeof word), sizeof word);
     sum += word;
   }
   return sum;

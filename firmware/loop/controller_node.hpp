@@ -63,6 +63,8 @@ class ControllerNode {
     drives_.put(actions.drive, frames);
   }
 
+  void seed_challenges(std::uint32_t seed) { controller_.seed_challenges(seed); }
+
   [[nodiscard]] const ControllerType& controller() const { return controller_; }
   [[nodiscard]] const can::IgnoredFrames& ignored() const { return receiver_.ignored(); }
 

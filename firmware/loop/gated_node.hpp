@@ -47,6 +47,9 @@ class GatedNode {
     gate_.check(frames, tick.number);
   }
 
+  // Before the first step, where the seed is known at run time alone.
+  void seed_challenges(std::uint32_t seed) { node_.seed_challenges(seed); }
+
   [[nodiscard]] const Node& node() const { return node_; }
   [[nodiscard]] const auto& controller() const { return node_.controller(); }
   [[nodiscard]] const Gate& gate() const { return gate_; }

@@ -36,6 +36,9 @@ class TickLoop {
   constexpr TickLoop(const core::RobotProfile& robot, BusType bus, Ticks ticks, std::uint32_t seed = 0)
       : bus_(std::forward<BusType>(bus)), ticks_(std::forward<Ticks>(ticks)), node_(robot, seed) {}
 
+  // Before the first tick, where the seed is known at run time alone.
+  void seed_challenges(std::uint32_t seed) { node_.seed_challenges(seed); }
+
   // One tick. False if there was none yet.
   bool turn() {
     auto tick = ticks_.next(bus_);

@@ -14,7 +14,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "firmware/policy/network.hpp"
 
@@ -58,7 +57,7 @@ class WeightsCheck {
     const auto* bytes = layer_at(layer_) + sizeof(std::uint32_t) * at_;
     for (std::uint32_t i = 0; i < slice; ++i) {
       std::uint32_t word = 0;
-      std::memcpy(&word, __builtin_assume_aligned(bytes, sizeof word), sizeof word);
+      __builtin_memcpy(&word, __builtin_assume_aligned(bytes, sizeof word), sizeof word);
       hash_ = detail::fnv_next(hash_, word);
       bytes += sizeof word;
     }

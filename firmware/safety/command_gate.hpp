@@ -98,14 +98,20 @@ class CommandGate {
   [[nodiscard]] std::uint32_t active_limits() const { return active_limits_; }
 
  private:
+  // The counter of a frame whose length and CRC are correct.
   template <class Message>
   static std::optional<std::uint8_t> sequence_of(const can::Frame& frame) {
-    Message message;
-    const bool sound = can::receive(frame, message) == can::Verdict::accepted;
+    constexpr const can::MessageInfo& info = can::layout<Message>.info;
+    return sequence_of(frame, info.length, info.data_ids);
+  }
+  [[gnu::noinline]] static std::optional<std::uint8_t> sequence_of(const can::Frame& frame,
+                                                                   std::uint8_t length,
+                                                                   can::DataIdList list) {
+    const bool sound = frame.length == length && frame.data[0] == can::protection_crc(frame, list);
     return sound ? std::optional(can::counter_of(frame)) : std::nullopt;
   }
 
-  void take_mode(const can::Frame& frame, std::uint32_t tick) {
+  [[gnu::noinline]] void take_mode(const can::Frame& frame, std::uint32_t tick) {
     can::ModeCommand command;
     if (can::receive(frame, command) != can::Verdict::accepted) {
       return;
@@ -147,18 +153,22 @@ class CommandGate {
       torque_ = {};
       return;
     }
-    core::DriveCommand passed;
-    if (has_cause(tick)) {
-      passed = limited(wanted);
-    } else {
-      shut_ = true;
-      blocked_since_clear_ = true;
-      blocked_ = std::min<std::uint32_t>(blocked_ + 1, 255);
-    }
+    const core::DriveCommand passed = has_cause(tick) ? limited(wanted) : block();
     torque_ = passed.torque;
     if (!(passed == wanted)) {
-      Drives::recode(frame, passed);
+      recode(frame, passed);
     }
+  }
+
+  [[gnu::noinline]] static void recode(can::Frame& frame, const core::DriveCommand& command) {
+    Drives::recode(frame, command);
+  }
+
+  core::DriveCommand block() {
+    shut_ = true;
+    blocked_since_clear_ = true;
+    blocked_ = std::min<std::uint32_t>(blocked_ + 1, 255);
+    return {};
   }
 
   core::DriveCommand limited(const core::DriveCommand& wanted) {

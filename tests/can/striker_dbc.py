@@ -42,3 +42,8 @@ def value(message, signal, name):
     """The count that a signal's named value stands for."""
     values = MATRIX.frame_by_name(message).signal_by_name(signal).values
     return next(count for count, known in values.items() if known == name)
+
+
+def attribute(message, name):
+    """A message's attribute, or its default."""
+    return MATRIX.frame_by_name(message).attribute(name, db=MATRIX)

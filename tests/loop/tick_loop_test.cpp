@@ -141,6 +141,7 @@ class MadNode {
  public:
   using Drives = can::StrikerDrives;
   explicit MadNode(const core::RobotProfile&, std::uint32_t) {}
+  void seed_challenges(std::uint32_t) {}
   void step(const Tick&, const GateReport&, can::FrameList& frames) {
     frames.clear();
     frames.add({.id = 0x040, .length = 2, .data = {}});  // an operator's command

@@ -19,6 +19,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path[:0] = [os.path.join(ROOT, "tests", "can"), os.path.join(ROOT, "firmware", "ports", "bare_metal")]
 
 import stack_usage  # noqa: E402
+import operator_consent  # noqa: E402
 import striker_dbc  # noqa: E402
 
 PAINT = 0xC5C5C5C5
@@ -53,9 +54,9 @@ def connect(path):
 
 def exchange(serial, ticks):
     """Sends a tick's frames whenever a wheel command has come; what came back, by identifier."""
-    answers, waiting = {}, b""
+    answers, waiting, confirming = {}, b"", operator_consent.Confirming()
     for frames in ticks:
-        serial.sendall(frames)
+        serial.sendall(confirming.lines(frames))
         commanded = False
         while not commanded:
             received = serial.recv(65536)
@@ -64,7 +65,9 @@ def exchange(serial, ticks):
             *lines, waiting = (waiting + received).split(b"\r")
             for line in lines:
                 identifier = int(line[1:4], 16)
-                answers.setdefault(identifier, []).append(bytes.fromhex(line[5:].decode()))
+                payload = bytes.fromhex(line[5:].decode())
+                confirming.hear(identifier, payload)
+                answers.setdefault(identifier, []).append(payload)
                 commanded |= identifier == WHEEL_COMMAND
     return answers
 

@@ -21,13 +21,14 @@ import controller_image_test
 import gdb_remote
 import image_test
 import qemu_image
+import operator_consent
 import striker_dbc
 
 MAGIC = 0x464C5452
 EXCEPTION, WATCHDOG, STACK_OVERFLOW = 1, 2, 3
 MOST_RESETS = 8
 # What the bus is told.
-FAULT = {EXCEPTION: "overrun", WATCHDOG: "overrun", STACK_OVERFLOW: "overrun"}
+FAULT = {EXCEPTION: "processor_exception", WATCHDOG: "watchdog", STACK_OVERFLOW: "processor_exception"}
 
 FAULT_REPORT = striker_dbc.identifier("FaultReport")
 
@@ -142,6 +143,7 @@ class Machine:
         stack.callback(process.kill)
         self._serial = stack.enter_context(controller_image_test.connect(paths["serial"]))
         self._waiting = b""
+        self._confirming = operator_consent.Confirming()
         self.control = Control(paths["control"])
         if processor := board["qemu"]["power_on"]:
             self.control.ask("qom-set", path=processor, property="start-powered-off", value=False)
@@ -173,10 +175,13 @@ class Machine:
 
     def tick(self, frames):
         """Sends a tick's frames, and returns what came up to the next wheel command."""
-        self.send(frames)
+        self.send(self._confirming.lines(frames))
         came, end = [], time.monotonic() + 30
         while not any(identifier == controller_image_test.WHEEL_COMMAND for identifier, _ in came):
-            came += self.frames(1)
+            new = self.frames(1)
+            for frame in new:
+                self._confirming.hear(*frame)
+            came += new
             expect(time.monotonic() < end, "no wheel command for 30 s")
         return came
 

@@ -26,7 +26,7 @@ class BoardTicks {
   std::optional<loop::Tick> next(BusType& bus) {
     auto tick = ticks_.next(bus);
     if (tick && untold_ != core::Fault::none) {
-      tick->port_fault = untold_;
+      tick->port_faults |= core::set_of(untold_);
       untold_ = core::Fault::none;
     }
     return tick;

@@ -6,6 +6,7 @@
 #include "firmware/ports/bare_metal/board_clock.hpp"
 #include "firmware/ports/bare_metal/board_ticks.hpp"
 #include "firmware/ports/bare_metal/fault_record.hpp"
+#include "firmware/ports/bare_metal/memory.hpp"
 #include "firmware/ports/bare_metal/watchdog.hpp"
 
 namespace {
@@ -21,8 +22,8 @@ constinit loop::TickLoop<loop::BuiltInNode, BoardBus&, BoardTicks&> tick_loop(lo
                                                                               board_ticks);
 
 // What the bus is told of the run before.
-core::Fault fault_of(const FaultRecord&) {
-  return core::Fault::overrun;
+core::Fault fault_of(const FaultRecord& record) {
+  return record.cause == FaultCause::watchdog ? core::Fault::watchdog : core::Fault::processor_exception;
 }
 
 }  // namespace
@@ -31,6 +32,7 @@ int main() {
   if (const auto last = take_last_fault()) {
     board_ticks.tell(fault_of(*last));
   }
+  tick_loop.seed_challenges(power_on_noise());
   start_can();
   start_ticks();
   start_watchdog();

@@ -21,6 +21,25 @@ constexpr int guarding_words = 4;
 
 }  // namespace
 
+namespace {
+
+// FNV-1a of the RAM that the stack will have.
+std::uint32_t hash_of_stack_memory(const std::uint32_t* end) {
+  std::uint32_t hash = 2166136261U;
+  for (const volatile std::uint32_t* word = &stack_bottom; word < end; ++word) {
+    hash = (hash ^ *word) * 16777619U;
+  }
+  return hash;
+}
+
+std::uint32_t noise = 0;
+
+}  // namespace
+
+std::uint32_t power_on_noise() {
+  return noise | 1U;
+}
+
 void prepare_memory() {
   const std::uint32_t* from = &data_load;
   for (volatile std::uint32_t* to = &data_start; to != &data_end; ++to) {
@@ -30,6 +49,7 @@ void prepare_memory() {
     *to = 0;
   }
   const auto* here = static_cast<const std::uint32_t*>(__builtin_frame_address(0));
+  noise = hash_of_stack_memory(here - 16);
   for (volatile std::uint32_t* to = &stack_bottom; to < here - 16; ++to) {
     *to = paint;
   }

@@ -12,6 +12,11 @@ void prepare_memory();
 // The lowest words of the stack still hold the paint: it has never been full since reset. Four loads.
 [[nodiscard]] bool stack_is_intact();
 
+// What the RAM held at power-on, hashed: each chip's own, with some bits that differ each time (SRAM start-up values).
+// It begins the challenges (core/consent.hpp), so that a recording of another run does not fit; it is no secret. A
+// board with a random number generator has a better seed. Never 0.
+[[nodiscard]] std::uint32_t power_on_noise();
+
 // The stack that was in use at its deepest since reset, in bytes.
 [[nodiscard]] std::uint32_t stack_high_water_bytes();
 
