@@ -12,12 +12,17 @@
 #include <map>
 #include <regex>
 #include <stdexcept>
+#include <string_view>
 
 namespace striker::sil {
 
 namespace {
 
 constexpr double ns_per_ms = 1e6;
+
+// Of a message or an attribute. The library's regular expressions need stack for every letter.
+constexpr std::size_t longest_line = 4096;
+
 constexpr std::uint32_t no_message = 0xC0000000;  // Vector's home for signals that are in no message
 
 struct Described {
@@ -68,6 +73,14 @@ class DbcReader {
     static const std::regex message(R"(\s*BO_\s+(\d+)\s+(\w+)\s*:\s*(\d+)\s+(\w+).*)");
     static const std::regex attribute(R"(\s*BA_\s+"(\w+)\"\s+BO_\s+(\d+)\s+([-+.eE\d]+)\s*;.*)");
     static const std::regex absent(R"(\s*BA_DEF_DEF_\s+"(\w+)\"\s+([-+.eE\d]+)\s*;.*)");
+    const std::string_view text =
+        std::string_view(line).substr(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (!text.starts_with("BO_") && !text.starts_with("BA_")) {
+      return;
+    }
+    if (line.size() > longest_line) {
+      fail(fmt::format("line {}: longer than {} letters", line_, longest_line));
+    }
     std::smatch part;
     if (std::regex_match(line, part, message)) {
       const auto id = number<std::uint32_t>(part[1]);

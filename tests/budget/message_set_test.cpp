@@ -73,6 +73,9 @@ TEST_F(MessageSet, WhatIsWrongIsNamed) {
   EXPECT_NE(refusal("nothing").find("no message (BO_)"), std::string::npos);
   EXPECT_NE(refusal("BO_ 1 M: 8 A\n").find("message M: neither GenMsgCycleTime"), std::string::npos);
   EXPECT_EQ(refusal("BO_ 1 M: 8 A\n", 10), "");
+  EXPECT_NE(refusal("BO_ 1 M: 8 A" + std::string(300'000, ' ') + "\n").find("line 1: longer than"),
+            std::string::npos);
+  EXPECT_EQ(refusal("CM_ \"" + std::string(300'000, ' ') + "\"\nBO_ 1 M: 8 A\n", 10), "");
   EXPECT_NE(refusal("BO_ 2147483649 M: 8 A\n", 10).find("message M: an extended identifier"),
             std::string::npos);
   EXPECT_NE(refusal("BO_ 1 M: 64 A\n", 10).find("more than 8 bytes"), std::string::npos);

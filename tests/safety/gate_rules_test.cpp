@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command gate by itself, at each of its limits: a node behind it sends what it likes.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "firmware/can/drives/striker_drives.hpp"
+#include "firmware/safety/command_gate.hpp"
+
+namespace striker::safety {
+namespace {
+
+constexpr std::int32_t arm = static_cast<std::int32_t>(can::Mode::arm);
+constexpr std::int32_t clear = static_cast<std::int32_t>(can::Mode::clear);
+constexpr can::WheelCommand some_command = {.left_torque_mNm = 100, .right_torque_mNm = -100};
+
+class GateRules : public testing::Test {
+ protected:
+  CommandGate<can::StrikerDrives> gate{{.torque_mNm = 400, .slew_mNm = 300, .set_point_mm_s = 2000}};
+  std::uint32_t tick = 1000;
+  bool sends_wheels = true;
+  bool sends_poses = true;
+  bool sends_balls = true;
+
+  // A tick in which the inputs come that are not withheld.
+  void feed() {
+    if (sends_wheels) {
+      receive(can::send(can::WheelState{}, wheels_));
+    }
+    if (sends_poses) {
+      receive(can::send(can::VisionPose{}, pose_));
+    }
+    if (sends_balls) {
+      receive(can::send(can::VisionBall{}, ball_));
+    }
+    ++tick;
+  }
+  void feed(std::uint32_t ticks) {
+    for (std::uint32_t i = 0; i < ticks; ++i) {
+      feed();
+    }
+  }
+  void receive(const can::Frame& frame) { gate.take({&frame, 1}, tick); }
+
+  can::FrameList send(const can::Frame& frame) {
+    can::FrameList frames;
+    frames.add(frame);
+    gate.check(frames, tick);
+    return frames;
+  }
+  can::WheelCommand command(const can::WheelCommand& wanted) {
+    can::WheelCommand passed;
+    EXPECT_EQ(can::receive(send(can::send(wanted, command_)).frames().front(), passed),
+              can::Verdict::accepted);
+    return passed;
+  }
+  bool moves() { return command(some_command).left_torque_mNm != 0; }
+
+  void challenge(std::int32_t mode, std::int32_t number) {
+    send(can::send(can::Challenge{.mode = mode, .challenge = number}, challenge_));
+  }
+  void order(std::int32_t mode, std::int32_t number) {
+    receive(can::send(can::ModeCommand{.mode = mode, .challenge = number}, mode_));
+  }
+  void confirm(std::int32_t mode) {
+    challenge(mode, 77);
+    order(mode, 77);
+  }
+  void drive() {
+    feed(13);
+    confirm(arm);
+    ASSERT_TRUE(moves());
+  }
+
+ private:
+  can::SendCounter wheels_, pose_, ball_, challenge_, command_, mode_;
+};
+
+TEST_F(GateRules, NothingMovesWithoutAConfirmedArm) {
+  feed(13);
+  EXPECT_FALSE(moves());
+  EXPECT_TRUE(gate.has_blocked());
+  EXPECT_EQ(gate.blocked(), 1U);
+  confirm(arm);
+  EXPECT_FALSE(moves()) << "what was blocked stays shut until a clear";
+  confirm(clear);
+  EXPECT_FALSE(gate.has_blocked());
+  EXPECT_FALSE(moves()) << "a clear does not arm";
+  confirm(clear);
+  confirm(arm);
+  EXPECT_TRUE(moves());
+}
+
+TEST_F(GateRules, AllZeroPassesAlways) {
+  EXPECT_EQ(command({}).left_torque_mNm, 0);
+  EXPECT_FALSE(gate.has_blocked());
+  EXPECT_EQ(gate.blocked(), 0U);
+  EXPECT_EQ(gate.active_limits(), 0U);
+}
+
+TEST_F(GateRules, ASetPointAloneMoves) {
+  feed(13);
+  EXPECT_EQ(command({.right_set_point_2mm_s = 1}).right_set_point_2mm_s, 0);
+  EXPECT_TRUE(gate.has_blocked());
+}
+
+TEST_F(GateRules, AChallengeIsGoodOnceForItsModeAndInTime) {
+  feed(13);
+  challenge(arm, 5);
+  order(arm, 6);
+  EXPECT_FALSE(moves()) << "another number";
+  confirm(clear);
+  order(arm, 77);
+  EXPECT_FALSE(moves()) << "the number of another request";
+  confirm(clear);
+  challenge(clear, 5);
+  order(arm, 5);
+  EXPECT_FALSE(moves()) << "another mode";
+  confirm(clear);
+  challenge(arm, 5);
+  order(arm, 6);
+  order(arm, 5);
+  EXPECT_FALSE(moves()) << "a wrong number closes it";
+  confirm(clear);
+  order(arm, 0);
+  EXPECT_FALSE(moves()) << "a request is no confirmation, even where nothing is open";
+  confirm(clear);
+  challenge(arm, 5);
+  order(arm, 0);
+  order(arm, 5);
+  EXPECT_TRUE(moves()) << "a request does not close it";
+}
+
+TEST_F(GateRules, AChallengeLastsItsTime) {
+  for (const std::uint32_t wait : {600U, 601U}) {
+    SCOPED_TRACE(wait);
+    confirm(clear);
+    challenge(arm, 5);
+    feed(wait);
+    order(arm, 5);
+    EXPECT_EQ(moves(), wait == 600);
+  }
+}
+
+TEST_F(GateRules, WhatMovesHasWheelStatesWithinTheirTime) {
+  drive();
+  sends_wheels = false;
+  feed(24);
+  EXPECT_TRUE(moves()) << "25 ticks after the last";
+  feed();
+  EXPECT_FALSE(moves());
+}
+
+TEST_F(GateRules, WhatMovesHasPosesAndBallsWithinTheirTime) {
+  for (bool* const kind : {&sends_poses, &sends_balls}) {
+    confirm(clear);
+    drive();
+    *kind = false;
+    feed(199);
+    EXPECT_TRUE(moves()) << "200 ticks after the last";
+    feed();
+    EXPECT_FALSE(moves());
+    *kind = true;
+  }
+}
+
+TEST_F(GateRules, InputsAreAsOldAsTheyAre) {
+  drive();
+  sends_wheels = false;
+  feed(20);
+  can::SendCounter counter{.next = 13};
+  can::Frame waited = can::send(can::WheelState{}, counter);
+  waited.age_ms = 10;
+  receive(waited);
+  feed(15);
+  EXPECT_TRUE(moves());
+  feed();
+  EXPECT_FALSE(moves());
+}
+
+TEST_F(GateRules, BeingArmedEndsAndIsRenewed) {
+  drive();
+  feed(10'000);
+  order(static_cast<std::int32_t>(can::Mode::renew), 0);
+  feed(10'100);
+  EXPECT_TRUE(moves());
+  feed();
+  EXPECT_FALSE(moves());
+}
+
+TEST_F(GateRules, ADisarmEndsIt) {
+  drive();
+  order(static_cast<std::int32_t>(can::Mode::disarm), 0);
+  EXPECT_FALSE(moves());
+}
+
+TEST_F(GateRules, AWrongOrderChangesNothing) {
+  drive();
+  can::SendCounter counter;
+  can::Frame wrong = can::send(can::ModeCommand{}, counter);
+  wrong.data[0] ^= 1U;
+  receive(wrong);
+  can::Frame wrong_stop = can::send(can::EmergencyStop{}, counter);
+  wrong_stop.data[0] ^= 1U;
+  receive(wrong_stop);
+  EXPECT_TRUE(moves());
+}
+
+TEST_F(GateRules, AStopShutsUntilAClearIsConfirmed) {
+  drive();
+  can::SendCounter counter;
+  receive(can::send(can::EmergencyStop{}, counter));
+  receive(can::send(can::WheelState{}, counter));
+  EXPECT_FALSE(moves());
+  confirm(arm);
+  EXPECT_FALSE(moves());
+}
+
+TEST_F(GateRules, AStopAloneBlocksAnArm) {
+  feed(13);
+  can::SendCounter counter;
+  receive(can::send(can::EmergencyStop{}, counter));
+  confirm(arm);
+  EXPECT_FALSE(gate.has_blocked());
+  EXPECT_FALSE(moves());
+}
+
+TEST_F(GateRules, AFaultOfTheControllersEndsIt) {
+  drive();
+  can::SendCounter counter;
+  send(can::send(can::FaultReport{.code = 3}, counter));
+  EXPECT_FALSE(moves());
+}
+
+TEST_F(GateRules, ARestartEndsConsentAndKeepsAStop) {
+  drive();
+  gate.restart();
+  feed(13);
+  EXPECT_FALSE(moves());
+  confirm(clear);
+  drive();
+  can::SendCounter counter;
+  receive(can::send(can::EmergencyStop{}, counter));
+  gate.restart();
+  feed(13);
+  confirm(arm);
+  EXPECT_FALSE(moves());
+}
+
+TEST_F(GateRules, BlockedCommandsAreCountedUpTo255) {
+  for (int i = 1; i <= 300; ++i) {
+    EXPECT_FALSE(moves());
+    EXPECT_EQ(gate.blocked(), std::min(i, 255));
+  }
+}
+
+TEST_F(GateRules, TorqueSlewAndSetPointsAreCutAndTold) {
+  drive();
+  command({.left_torque_mNm = 200, .right_torque_mNm = -200});
+  EXPECT_EQ(gate.active_limits(), 0U);
+  EXPECT_EQ(command({.left_torque_mNm = 401, .right_torque_mNm = -400}).left_torque_mNm, 400);
+  EXPECT_EQ(gate.active_limits(), can::limit_torque);
+  EXPECT_EQ(command({.left_torque_mNm = 100, .right_torque_mNm = -401}).right_torque_mNm, -400);
+  EXPECT_EQ(gate.active_limits(), can::limit_torque);
+  const can::WheelCommand slow = command({.left_torque_mNm = -201, .right_torque_mNm = -100});
+  EXPECT_EQ(slow.left_torque_mNm, -200);
+  EXPECT_EQ(slow.right_torque_mNm, -100);
+  EXPECT_EQ(gate.active_limits(), can::limit_slew);
+  const can::WheelCommand fast = command({.left_set_point_2mm_s = 1001, .right_set_point_2mm_s = -1001});
+  EXPECT_EQ(fast.left_set_point_2mm_s, 1000);
+  EXPECT_EQ(fast.right_set_point_2mm_s, -1000);
+  EXPECT_EQ(gate.active_limits(), can::limit_set_point);
+  command({.left_set_point_2mm_s = 1000, .right_set_point_2mm_s = -1000});
+  EXPECT_EQ(gate.active_limits(), 0U);
+  EXPECT_FALSE(gate.has_blocked()) << "a limit is no fault";
+}
+
+TEST_F(GateRules, TheSlewBeginsAtWhatWentOutLast) {
+  drive();
+  command({.left_torque_mNm = 300, .right_torque_mNm = 300});
+  command({});
+  EXPECT_EQ(command({.left_torque_mNm = -300, .right_torque_mNm = -301}).right_torque_mNm, -300);
+  EXPECT_EQ(gate.active_limits(), can::limit_slew);
+}
+
+TEST_F(GateRules, WhatPassesStaysAsItIs) {
+  drive();
+  can::SendCounter counter{.next = 9};
+  const can::Frame frame = can::send(some_command, counter);
+  EXPECT_EQ(send(frame).frames().front(), frame);
+  order(static_cast<std::int32_t>(can::Mode::disarm), 0);
+  const can::Frame zero = send(frame).frames().front();
+  EXPECT_EQ(can::counter_of(zero), 9) << "the same one in the sequence";
+}
+
+TEST_F(GateRules, WhatIsNotOnTheWhitelistIsCounted) {
+  can::FrameList frames;
+  frames.add(can::pack(can::Heartbeat{}));
+  frames.add(can::pack(can::VisionPose{}));
+  frames.add(can::pack(can::EmergencyStop{}));
+  gate.check(frames, tick);
+  EXPECT_EQ(frames.frames().size(), 1U);
+  EXPECT_EQ(gate.refused(), 2U);
+}
+
+}  // namespace
+}  // namespace striker::safety

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/safety/sequence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace striker::safety {
+namespace {
+
+// Takes these steps of the counter, one a tick, after the counter 0 at tick 0. A step of 16 is a wrong frame.
+bool is_fresh_after(const std::vector<std::uint32_t>& steps) {
+  Sequence<3> sequence;
+  std::uint32_t counter = 0;
+  std::uint32_t tick = 0;
+  sequence.take(0, tick);
+  for (const std::uint32_t step : steps) {
+    ++tick;
+    if (step == 16) {
+      sequence.take(std::nullopt, tick);
+    } else {
+      counter = (counter + step) % 16;
+      sequence.take(static_cast<std::uint8_t>(counter), tick);
+    }
+  }
+  return sequence.fresh(tick, 0);
+}
+
+TEST(Sequence, IsFreshAfterAStreakOfSmallSteps) {
+  EXPECT_FALSE(is_fresh_after({}));
+  EXPECT_FALSE(is_fresh_after({1, 1}));
+  EXPECT_TRUE(is_fresh_after({1, 1, 1}));
+  EXPECT_TRUE(is_fresh_after({3, 3, 3, 3, 3, 3, 3}));
+}
+
+TEST(Sequence, ARepeatedAJumpingOrAWrongFrameBreaksTheStreak) {
+  for (const std::uint32_t breaking : {0U, 4U, 15U, 16U}) {
+    EXPECT_FALSE(is_fresh_after({1, 1, 1, 1, 1, breaking})) << breaking;
+    EXPECT_FALSE(is_fresh_after({1, 1, 1, 1, 1, breaking, 1, 1})) << breaking;
+    EXPECT_TRUE(is_fresh_after({1, 1, 1, 1, 1, breaking, 1, 1, 1})) << breaking;
+  }
+}
+
+TEST(Sequence, AWrongFrameDoesNotMoveTheCounter) {
+  Sequence<1> sequence;
+  sequence.take(0, 0);
+  sequence.take(5, 1);
+  sequence.take(std::nullopt, 2);
+  sequence.take(6, 3);
+  EXPECT_TRUE(sequence.fresh(3, 0));
+}
+
+TEST(Sequence, FreshLastsItsLimitFromWhenItWasReceived) {
+  Sequence<1> sequence;
+  EXPECT_FALSE(sequence.fresh(0, 1000)) << "nothing came";
+  sequence.take(0, 10);
+  sequence.take(1, 11);
+  EXPECT_TRUE(sequence.fresh(36, 25));
+  EXPECT_FALSE(sequence.fresh(37, 25));
+}
+
+}  // namespace
+}  // namespace striker::safety
