@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware/core/consent.hpp"
 #include "firmware/core/percepts.hpp"
 #include "firmware/core/state.hpp"
+#include "firmware/core/supervision/consent.hpp"
 
 namespace striker::core {
 

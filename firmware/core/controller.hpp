@@ -34,8 +34,6 @@
 #include <type_traits>
 
 #include "firmware/core/actions.hpp"
-#include "firmware/core/command_check.hpp"
-#include "firmware/core/consent.hpp"
 #include "firmware/core/decision_clock.hpp"
 #include "firmware/core/estimation/estimator.hpp"
 #include "firmware/core/estimation/plausibility.hpp"
@@ -44,8 +42,10 @@
 #include "firmware/core/pilot.hpp"
 #include "firmware/core/robot_profile.hpp"
 #include "firmware/core/seal.hpp"
-#include "firmware/core/supervisor.hpp"
-#include "firmware/core/vigilance.hpp"
+#include "firmware/core/supervision/command_check.hpp"
+#include "firmware/core/supervision/consent.hpp"
+#include "firmware/core/supervision/supervisor.hpp"
+#include "firmware/core/supervision/vigilance.hpp"
 #include "firmware/core/wheel_loop.hpp"
 
 namespace striker::core {

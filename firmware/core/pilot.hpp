@@ -23,7 +23,7 @@
 #include "firmware/core/actions.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
 #include "firmware/core/robot_profile.hpp"
-#include "firmware/core/supervisor.hpp"
+#include "firmware/core/supervision/supervisor.hpp"
 #include "firmware/core/tick.hpp"
 #include "firmware/policy/network.hpp"
 #include "firmware/policy/proof.hpp"

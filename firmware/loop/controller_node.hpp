@@ -35,7 +35,7 @@ class ControllerNode {
  public:
   using Drives = DrivesType;
 
-  // `seed` begins the controller's sequence of challenges; 0 is for simulations (core/consent.hpp).
+  // `seed` begins the controller's sequence of challenges; 0 is for simulations (core/supervision/consent.hpp).
   explicit constexpr ControllerNode(const core::RobotProfile& robot, std::uint32_t seed = 0)
       : controller_(robot, seed) {}
 

@@ -30,7 +30,7 @@ class GatedNode {
  public:
   using Gate = safety::CommandGate<typename Node::Drives>;
 
-  // `seed`: core/consent.hpp.
+  // `seed`: core/supervision/consent.hpp.
   explicit constexpr GatedNode(const core::RobotProfile& robot, std::uint32_t seed = 0)
       : node_(robot, seed), gate_(gate_limits_of(robot)) {}
 

@@ -32,7 +32,7 @@ namespace striker::loop {
 template <class Node, class BusType, class Ticks>
 class TickLoop {
  public:
-  // `seed`: core/consent.hpp.
+  // `seed`: core/supervision/consent.hpp.
   constexpr TickLoop(const core::RobotProfile& robot, BusType bus, Ticks ticks, std::uint32_t seed = 0)
       : bus_(std::forward<BusType>(bus)), ticks_(std::forward<Ticks>(ticks)), node_(robot, seed) {}
 

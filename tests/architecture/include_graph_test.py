@@ -168,15 +168,15 @@ def problems_of(root):
 
 # A file, what is put in its first line, and what has to be said.
 VIOLATIONS = (
-    ("firmware/core/supervisor.cpp", '#include "firmware/can/messages.hpp"', "may not include firmware/can"),
+    ("firmware/core/supervision/supervisor.cpp", '#include "firmware/can/messages.hpp"', "may not include firmware/can"),
     ("firmware/can/receiver.cpp", '#include "firmware/loop/tick.hpp"', "may not include firmware/loop"),
     ("firmware/loop/built_in_node.cpp", '#include "tests/policy/synthetic_policy.hpp"', "may not include tests"),
     ("sil/robot/plant.cpp", '#include "firmware/ports/linux/real_time.hpp"', "may not include firmware/ports/linux"),
     ("training/learner/dqn.cpp", '#include "training/run/config.hpp"', "may not include training/run"),
-    ("firmware/core/state.hpp", '#include "firmware/core/supervisor.hpp"', "a circle of files"),
-    ("firmware/core/supervisor.cpp", '#include "supervisor.hpp"', "does not name a file"),
-    ("firmware/core/supervisor.cpp", "\n" * MOST_LINES, "lines, more than"),
-    ("firmware/core/supervisor.cpp", "\n", "its first lines do not say"),
+    ("firmware/core/state.hpp", '#include "firmware/core/supervision/supervisor.hpp"', "a circle of files"),
+    ("firmware/core/supervision/supervisor.cpp", '#include "supervisor.hpp"', "does not name a file"),
+    ("firmware/core/supervision/supervisor.cpp", "\n" * MOST_LINES, "lines, more than"),
+    ("firmware/core/supervision/supervisor.cpp", "\n", "its first lines do not say"),
 )
 
 

@@ -43,8 +43,10 @@ class Confirming:
         self.challenge = 0
 
     def hear(self, identifier, payload):
+        """Takes note of a frame of the controller's, and hands it on."""
         if identifier == CHALLENGE:
             self.challenge = challenge_in(payload)[1]
+        return identifier, payload
 
     def passed_on(self, identifier, payload):
         if identifier == MODE_COMMAND and striker_dbc.raw("ModeCommand", "challenge", payload):

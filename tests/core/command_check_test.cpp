@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The independent check by property: what gets through never moves without a cause, a limit or a sane wheel.
-#include "firmware/core/command_check.hpp"
+#include "firmware/core/supervision/command_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "firmware/core/consent.hpp"
+#include "firmware/core/supervision/consent.hpp"
 #include "firmware/core/freshness.hpp"
 
 namespace striker::core {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The supervisor over every state, fault and combination of conditions: what must never happen does not.
-#include "firmware/core/supervisor.hpp"
+#include "firmware/core/supervision/supervisor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every cause that the controller knows of its inputs, at its limit.
-#include "firmware/core/vigilance.hpp"
+#include "firmware/core/supervision/vigilance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "firmware/core/consent.hpp"
+#include "firmware/core/supervision/consent.hpp"
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/gated_node.hpp"
 #include "tests/fuzz/any_frame.hpp"

@@ -166,7 +166,7 @@ class Machine:
         received = self._serial.recv(65536)
         expect(received, "the image stopped")
         *lines, self._waiting = (self._waiting + received).split(b"\r")
-        return [(int(line[1:4], 16), bytes.fromhex(line[5:].decode())) for line in lines
+        return [self._confirming.hear(int(line[1:4], 16), bytes.fromhex(line[5:].decode())) for line in lines
                 if re.fullmatch(rb"t[0-9A-F]{4}([0-9A-F]{2})*", line)]
 
     def drain(self):
@@ -178,10 +178,7 @@ class Machine:
         self.send(self._confirming.lines(frames))
         came, end = [], time.monotonic() + 30
         while not any(identifier == controller_image_test.WHEEL_COMMAND for identifier, _ in came):
-            new = self.frames(1)
-            for frame in new:
-                self._confirming.hear(*frame)
-            came += new
+            came += self.frames(1)
             expect(time.monotonic() < end, "no wheel command for 30 s")
         return came
 

@@ -13,7 +13,7 @@ void prepare_memory();
 [[nodiscard]] bool stack_is_intact();
 
 // What the RAM held at power-on, hashed: each chip's own, with some bits that differ each time (SRAM start-up values).
-// It begins the challenges (core/consent.hpp), so that a recording of another run does not fit; it is no secret. A
+// It begins the challenges (core/supervision/consent.hpp), so that a recording of another run does not fit; it is no secret. A
 // board with a random number generator has a better seed. Never 0.
 [[nodiscard]] std::uint32_t power_on_noise();
 

@@ -21,7 +21,7 @@ struct LockstepSockets {
 };
 
 // Without a Sync for `sync_timeout` of wall clock, once they have begun: fault sync_lost, torque 0, told again every
-// 100 ms. An interface that goes away throws std::runtime_error. `seed`: core/consent.hpp.
+// 100 ms. An interface that goes away throws std::runtime_error. `seed`: core/supervision/consent.hpp.
 LockstepReport run_lockstep(const LockstepSockets& sockets, std::chrono::milliseconds sync_timeout,
                             std::uint32_t seed);
 

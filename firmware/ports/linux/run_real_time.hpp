@@ -31,7 +31,7 @@ struct RealTimeOptions {
   std::uint32_t overrun_limit = 500;
   std::uint32_t frames_per_tick = 64;  // up to greatest_frames_per_tick
   std::uint64_t ticks = 0;             // stops after these; 0: a stop signal alone stops
-  std::uint32_t challenge_seed = 0;    // core/consent.hpp
+  std::uint32_t challenge_seed = 0;    // core/supervision/consent.hpp
 };
 
 // The loop's clock: CLOCK_MONOTONIC, or a test's.

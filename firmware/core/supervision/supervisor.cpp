@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/core/supervisor.hpp"
+#include "firmware/core/supervision/supervisor.hpp"
 
 namespace striker::core {
 
