@@ -3,7 +3,7 @@
 // state machine (AUTOSAR_SWS_E2ELibrary, "E2E State Machine") over a window of counts.
 //
 //   no_data   no frame with a correct CRC since power-on
-//   init      correct frames come, not yet enough of them
+//   init      the first correct frames have come, or the first after a silence: not yet enough of them
 //   valid     believed: at least `least_correct` of the last `counts` counts came, correct and in order
 //   invalid   was valid; too many were lost, repeated, out of order or wrong
 //
@@ -68,7 +68,7 @@ class E2eMachine {
   // Nothing came within the message's time-out: what comes next has to earn its belief anew.
   void forget() {
     window_ = 0;
-    judge();
+    state_ = state_ == E2eState::no_data ? E2eState::no_data : E2eState::init;
   }
 
   [[nodiscard]] E2eState state() const { return state_; }

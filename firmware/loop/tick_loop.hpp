@@ -62,6 +62,7 @@ class TickLoop {
 
   [[nodiscard]] const Node& node() const { return node_.node(); }
   [[nodiscard]] std::remove_reference_t<BusType>& bus() { return bus_; }
+  [[nodiscard]] std::remove_reference_t<Ticks>& ticks() { return ticks_; }
   [[nodiscard]] std::uint64_t dropped_frames() const { return dropped_frames_; }
   [[nodiscard]] const auto& gate() const { return node_.gate(); }
 

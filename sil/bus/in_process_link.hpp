@@ -2,11 +2,16 @@
 // The controller in the simulator's own process, stepped by the same Sync frames as over a bus, in the same
 // loop as in the firmware. It steps within `send`; `collect` hands over what it said. A copy of a link is a
 // controller of its own.
+//
+// A port's wall clock is counted in ticks here: without SYNC for `sync_timeout_ticks` the loop is told, and again
+// every 100, as in firmware/ports/linux.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "firmware/loop/built_in_node.hpp"
@@ -38,10 +43,15 @@ class MemoryBus {
     sent_.insert(sent_.end(), frames.begin(), frames.end());
     return frames.size();
   }
-  [[nodiscard]] can::BusHealth health() const { return can::BusHealth::active; }
-  [[nodiscard]] std::uint32_t lost() const { return 0; }
+  [[nodiscard]] can::BusHealth health() const { return health_; }
+  [[nodiscard]] std::uint32_t lost() { return std::exchange(lost_, 0); }
+
+  void set_health(can::BusHealth health) { health_ = health; }
+  void lose(std::uint32_t frames) { lost_ += frames; }
 
  private:
+  can::BusHealth health_ = can::BusHealth::active;
+  std::uint32_t lost_ = 0;
   std::vector<can::Frame> waiting_;
   std::size_t taken_ = 0;
   std::vector<can::Frame> sent_;
@@ -51,13 +61,34 @@ static_assert(loop::Bus<MemoryBus, std::int64_t>);
 
 class InProcessLink final : public ControllerLink {
  public:
+  static constexpr std::uint32_t sync_timeout_ticks = 200;
+
   void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
   void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
   [[nodiscard]] const auto& controller() const { return loop_.node().controller(); }
 
+  // For faults of the controller's port: its process stands still, how it finds itself on the bus (frames pass all
+  // the same), and how many frames it could not keep.
+  void stand_still(bool stands) { stands_still_ = stands; }
+  void set_health(can::BusHealth health) { loop_.bus().set_health(health); }
+  void lose(std::uint32_t frames) { loop_.bus().lose(frames); }
+
+  // For faults of its memory: the controller's node and its command gate as they lie there.
+  [[nodiscard]] std::array<std::span<std::byte>, 2> memory() {
+    return {writable(loop_.node()), writable(loop_.gate())};
+  }
+
  private:
+  // The loop shows its parts as constants; it is this object's own.
+  template <class Part>
+  static std::span<std::byte> writable(const Part& part) {
+    return std::as_writable_bytes(std::span(const_cast<Part*>(&part), 1));
+  }
+
   loop::TickLoop<loop::BuiltInNode, MemoryBus, loop::SyncTicks> loop_{loop::built_in_robot, {}, {}};
+  std::uint32_t ticks_without_sync_ = 0;
+  bool stands_still_ = false;
 };
 
 }  // namespace striker::sil

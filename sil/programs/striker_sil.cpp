@@ -15,6 +15,8 @@
 #include "sil/bus/in_process_link.hpp"
 #include "sil/bus/socketcan_link.hpp"
 #include "sil/bus/timed_link.hpp"
+#include "sil/programs/campaign_command.hpp"
+#include "sil/programs/fault_command.hpp"
 #include "sil/programs/kick_options.hpp"
 #include "sil/record/candump_log.hpp"
 #include "sil/record/decision_csv.hpp"
@@ -163,11 +165,20 @@ int main(int argc, char** argv) {
   CLI::App* kick = app.add_subcommand("kick", "play the official kick task");
   KickOptions options;
   define(*kick, options);
+  CLI::App* faults = app.add_subcommand("faults", "play the kick task with everything that can go wrong");
+  FaultOptions fault_options;
+  define(*faults, fault_options);
+  CLI::App* campaign = app.add_subcommand("campaign", "play many random combinations of faults");
+  CampaignOptions campaign_options;
+  define(*campaign, campaign_options);
   return host::run(
       app, argc, argv,
       [&] {
         host::catch_stop_signals();
-        return play_kicks(options);
+        if (campaign->parsed()) {
+          return play_campaign(campaign_options);
+        }
+        return faults->parsed() ? play_faults(fault_options) : play_kicks(options);
       },
       fmt::format("policy {:08x}", policy::built_in.identity));
 }

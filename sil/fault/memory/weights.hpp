@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built-in policy's packed weights as this process reads them, to be damaged: they are constants, so their
+// pages are made writable first. Every controller in the process has the same ones.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace striker::sil {
+
+// The three layers. Throws std::runtime_error if their pages cannot be made writable.
+[[nodiscard]] std::array<std::span<std::byte>, 3> writable_weights();
+
+}  // namespace striker::sil
