@@ -188,10 +188,10 @@ TEST(Invariants, AFrameThatItsOwnTableRefusesIsSeen) {
 
 TEST(Invariants, ARimFarBeyondItsSpeedIsSeen) {
   Forger run;
-  run.plant.rims = {5.0, -5.0};
+  run.plant.rims = {6.3, -6.3};
   run.run(50);
   EXPECT_TRUE(run.invariants().violations().empty());
-  run.plant.rims.right_m_s = -5.2;
+  run.plant.rims.right_m_s = -6.4;
   run.run(1);
   run.expect(Invariant::runaway);
 }

@@ -73,6 +73,9 @@ bool WheelPlausibility::possible(const RobotProfile& robot, std::uint32_t tick, 
   const bool jumped =
       begun_ != 0 && (magnitude(measured.left_mm_s - left_.before_mm_s) > greatest_change_mm_s * elapsed ||
                       magnitude(measured.right_mm_s - right_.before_mm_s) > greatest_change_mm_s * elapsed);
+  const std::int32_t greatest_mm_s = 2 * robot.top_rim_speed_mm_s;
+  const bool runs_away =
+      magnitude(measured.left_mm_s) > greatest_mm_s || magnitude(measured.right_mm_s) > greatest_mm_s;
   if (begun_ == 0) {
     left_.window_begin_mm_s = measured.left_mm_s;
     right_.window_begin_mm_s = measured.right_mm_s;
@@ -85,11 +88,11 @@ bool WheelPlausibility::possible(const RobotProfile& robot, std::uint32_t tick, 
   right_.torque_sum_mNm += torque.right_mNm * elapsed;
   in_window_ += static_cast<std::uint32_t>(elapsed);
   if (in_window_ < window_ticks) {
-    return !jumped;
+    return !jumped && !runs_away;
   }
   in_window_ = 0;
   const bool left_follows = follows(robot, left_, measured.left_mm_s);
-  return follows(robot, right_, measured.right_mm_s) && left_follows && !jumped;
+  return follows(robot, right_, measured.right_mm_s) && left_follows && !jumped && !runs_away;
 }
 
 }  // namespace striker::core

@@ -22,7 +22,7 @@ constexpr std::uint32_t oldest_wheels_ticks = 25;
 constexpr std::uint32_t oldest_vision_ticks = 200;
 constexpr std::uint32_t oldest_sync_ticks = 25;
 constexpr std::uint32_t oldest_command_ticks = can::layout<can::WheelCommand>.info.timeout_ms;
-constexpr double fastest_rim = 2.0;  // of the robot's top speed
+constexpr double fastest_rim = 2.5;  // of the robot's top speed
 
 constexpr std::int32_t fault_state = static_cast<std::int32_t>(core::State::fault);
 constexpr std::int32_t active_state = static_cast<std::int32_t>(core::State::active);
