@@ -13,7 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const sil::FaultPlan plan = sil::parse_plan(text, "fuzz.toml");
     const std::string written = sil::plan_text(plan);
-    fuzz::require(sil::plan_text(sil::parse_plan(written, "written.toml")) == written, "a written plan is its own");
+    fuzz::require(sil::plan_text(sil::parse_plan(written, "written.toml")) == written,
+                  "a written plan is its own");
     for (const sil::FaultCase& fault_case : plan.cases) {
       static_cast<void>(sil::timed(fault_case.faults, 100));
       static_cast<void>(sil::in_words(fault_case.faults));
