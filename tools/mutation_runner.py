@@ -41,14 +41,15 @@ def tree_digest(root):
 class Worker:
     """One copy of the tree with its build."""
 
-    def __init__(self, root, copy, timeout_s, stop, kills):
+    def __init__(self, root, copy, timeout_s, stop, kills, compilers):
         self.tree, self.build = os.path.join(copy, "tree"), os.path.join(copy, "build")
         self.root, self.timeout_s, self.stop = root, timeout_s, stop
+        self.compilers = str(compilers)
         self.kills = kills  # by file and program, of all workers: who noticed most is asked first
         self.update()
         self.run_or_raise("cmake", "-S", os.path.join(self.tree, "tests", "mutation"), "-B", self.build, "-G", "Ninja",
                           "-DCMAKE_CXX_COMPILER_LAUNCHER=")
-        self.run_or_raise("ninja", "-C", self.build)
+        self.run_or_raise("ninja", "-C", self.build, "-j", self.compilers)
         with open(os.path.join(self.build, "programs.txt"), encoding="utf-8") as lines:
             self.programs = lines.read().split()
         for program in self.programs:
@@ -115,7 +116,7 @@ class Worker:
     def try_programs(self, case):
         kills = self.kills.setdefault(case.path, {})
         for program in sorted(self.programs, key=lambda name: -kills.get(name, 0)):
-            status, output = self.run(["ninja", "-C", self.build, program], 600)
+            status, output = self.run(["ninja", "-C", self.build, "-j", self.compilers, program], 600)
             if status is None:
                 return "timed out", "the compiler"
             if status != 0:

@@ -4,7 +4,9 @@
 #include <set>
 
 #include "firmware/core/supervision/consent.hpp"
+#include "firmware/core/estimation/relative_state.hpp"
 #include "firmware/core/freshness.hpp"
+#include "firmware/core/supervision/supervisor.hpp"
 
 namespace striker::core {
 namespace {
@@ -130,6 +132,19 @@ TEST(Freshness, WhatBecameTooOldDoesNotComeBack) {
   EXPECT_TRUE(freshness.ever());
   freshness.forget();
   EXPECT_FALSE(freshness.ever());
+}
+
+TEST(Supervisor, ALatchOfNothingStillStops) {
+  const Supervisor latched = latch({.state = State::active}, 0);
+  EXPECT_EQ(latched.state, State::fault);
+  EXPECT_EQ(latched.fault, Fault::none);
+  EXPECT_EQ(set_of(Fault::none), 0U);
+}
+
+TEST(RelativeState, AnElementThatThereIsNotIsZero) {
+  RelativeState state;
+  state.ball_um = {5, 6};
+  EXPECT_EQ(element_of(state, static_cast<policy::StateElement>(200)), 0);
 }
 
 }  // namespace

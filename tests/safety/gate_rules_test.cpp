@@ -98,6 +98,16 @@ TEST_F(GateRules, AllZeroPassesAlways) {
   EXPECT_EQ(gate.active_limits(), 0U);
 }
 
+// A torque field of 12 bits holds up to 2047, and 2000 is its greatest value: no drive takes such a frame.
+TEST_F(GateRules, WhatIsOutOfRangeMovesNothing) {
+  can::Frame frame = can::pack(can::WheelCommand{});
+  frame.data[2] = 0xFF;
+  frame.data[3] = 0x07;
+  can::protect(frame, can::layout<can::WheelCommand>.info.data_ids, 0);
+  EXPECT_EQ(send(frame).frames().front(), frame);
+  EXPECT_FALSE(gate.has_blocked());
+}
+
 TEST_F(GateRules, ASetPointAloneMoves) {
   feed(13);
   EXPECT_EQ(command({.right_set_point_2mm_s = 1}).right_set_point_2mm_s, 0);

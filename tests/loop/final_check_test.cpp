@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the controller makes of a pilot that goes wrong, of memory that changes before a decision, and of a seed that
+// is known at run time alone. The pilot is the test's own: no policy would do this.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "firmware/can/drives/striker_drives.hpp"
+#include "firmware/core/controller.hpp"
+#include "firmware/loop/controller_node.hpp"
+#include "firmware/loop/gated_node.hpp"
+
+namespace striker::core {
+namespace {
+
+constexpr std::uint32_t mark = 0xC0FFEE11;
+constexpr RobotProfile robot = profile_of(forward);
+
+struct ReadyWeights {
+  std::uint32_t reserved = 0;
+  bool step() { return true; }
+};
+
+// Always wants the set-point that it was made for.
+template <std::int32_t wanted_mm_s>
+struct StubbornPilot {
+  using WeightsCheck = ReadyWeights;
+  static constexpr std::uint32_t identity = 1;
+
+  SelfTest test_self(const RobotProfile&) { return SelfTest::passed; }
+  void reset() {}
+  Decision decide(const RelativeState&, bool extrapolated) { return {.extrapolated = extrapolated}; }
+  [[nodiscard]] WheelSpeeds set_point() const { return {wanted_mm_s, wanted_mm_s}; }
+
+  std::uint32_t marked = mark;
+};
+
+template <std::int32_t wanted_mm_s>
+class Bench {
+ public:
+  Controller<StubbornPilot<wanted_mm_s>> controller{robot};
+  Actions actions;
+  bool sends_pictures = true;
+  Requests requests;
+
+  void tick() {
+    Percepts percepts;
+    percepts.wheels = WheelSpeeds{};
+    percepts.requests = std::exchange(requests, {});
+    if (sends_pictures && now_ % 50 == 0) {
+      const auto number = static_cast<std::int32_t>(now_ / 50 % 16);
+      percepts.robot = {.picture = number};
+      percepts.ball = {.picture = number, .position_um = {1'000'000, 0}};
+    }
+    controller.step({.tick = now_, .percepts = percepts}, actions);
+    ++now_;
+  }
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      tick();
+    }
+  }
+  void arm() {
+    run(110);
+    requests.asked = Order::arm;
+    tick();
+    requests.confirmed = {Order::arm, actions.challenge.challenge};
+    tick();
+    ASSERT_EQ(controller.state(), State::active);
+  }
+
+ private:
+  std::uint32_t now_ = 0;
+};
+
+TEST(FinalCheck, ASetPointBeyondTheRobotsTopSpeedIsRefusedAndLatched) {
+  Bench<2551> bench;
+  bench.arm();
+  bench.run(60);
+  EXPECT_EQ(bench.controller.fault(), Fault::command_rejected);
+  EXPECT_EQ(bench.actions.drive, DriveCommand{});
+  EXPECT_EQ(bench.actions.fault, Fault::command_rejected);
+}
+
+TEST(FinalCheck, TheTopSpeedItselfIsDriven) {
+  Bench<2550> bench;
+  bench.arm();
+  bench.run(60);
+  EXPECT_EQ(bench.controller.fault(), Fault::none);
+  EXPECT_EQ(bench.actions.drive.set_point.left_mm_s, 2550);
+}
+
+TEST(FinalCheck, MemoryThatChangedIsNoticedBeforeADecisionWithoutAPicture) {
+  Bench<1000> bench;
+  bench.arm();
+  bench.run(60);
+  ASSERT_NE(bench.actions.drive, DriveCommand{});
+  bench.sends_pictures = false;
+  auto* const bytes = reinterpret_cast<unsigned char*>(&bench.controller);
+  std::size_t at = 0;
+  while (at + sizeof mark <= sizeof bench.controller && std::memcmp(bytes + at, &mark, sizeof mark) != 0) {
+    ++at;
+  }
+  ASSERT_LE(at + sizeof mark, sizeof bench.controller);
+  bytes[at] ^= 1U;
+  for (int i = 0; i < 60 && bench.controller.fault() == Fault::none; ++i) {
+    bench.tick();
+    EXPECT_FALSE(bench.actions.decision) << "none is made of it";
+  }
+  EXPECT_EQ(bench.controller.fault(), Fault::state_corrupt);
+  EXPECT_EQ(bench.actions.drive, DriveCommand{});
+}
+
+TEST(FinalCheck, ASeedOfTheRunTimeGivesOtherChallenges) {
+  const auto first_challenge = [](std::uint32_t seed) {
+    using Node = loop::ControllerNode<Controller<StubbornPilot<0>>, can::StrikerDrives>;
+    loop::GatedNode<Node> node(robot);
+    if (seed != 0) {
+      node.seed_challenges(seed);
+    }
+    can::SendCounter counter;
+    const can::Frame request =
+        can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(can::Mode::arm)}, counter);
+    can::FrameList sent;
+    for (std::uint32_t tick = 0; tick < 3; ++tick) {
+      node.step({.number = tick}, sent);  // to standby: a change of state closes a request
+    }
+    node.step({.number = 3, .frames = {&request, 1}}, sent);
+    can::Challenge challenge;
+    EXPECT_EQ(can::receive(sent.frames().front(), challenge), can::Verdict::accepted);
+    return challenge.challenge;
+  };
+  EXPECT_EQ(first_challenge(0), first_challenge(0));
+  EXPECT_EQ(first_challenge(7), first_challenge(7));
+  EXPECT_NE(first_challenge(0), first_challenge(7));
+  EXPECT_NE(first_challenge(8), first_challenge(7));
+}
+
+}  // namespace
+}  // namespace striker::core
