@@ -33,8 +33,8 @@ namespace striker::can {
 inline constexpr std::int32_t protocol_version = 4;
 
 using Messages =
-    std::tuple<EmergencyStop, FaultReport, Sync, ModeCommand, Challenge, WheelCommand, WheelState, VisionPose,
-               VisionBall, Status, Safety, Decision, Timing, Heartbeat, Version, EndOfTick>;
+    std::tuple<EmergencyStop, FaultReport, Sync, ModeCommand, WheelCommand, WheelState, VisionPose,
+               VisionBall, Challenge, Status, Safety, Decision, Timing, Heartbeat, Version, EndOfTick>;
 
 // Calls visit(layout) for every message, in the order of the table.
 template <class Visit>

@@ -15,7 +15,7 @@ namespace {
 
 TEST(Whitelist, HoldsTheControllersMessagesAndNothingElse) {
   // Written down here, not taken from the table.
-  const std::set<std::pair<int, int>> wanted = {{0x020, 7}, {0x048, 6}, {0x050, 8}, {0x100, 8}, {0x108, 8},
+  const std::set<std::pair<int, int>> wanted = {{0x020, 7}, {0x090, 6}, {0x050, 8}, {0x100, 8}, {0x108, 8},
                                                 {0x110, 7}, {0x120, 8}, {0x700, 4}, {0x710, 6}, {0x7F0, 6}};
   for (int id = 0; id <= 0xFFFF; ++id) {
     for (int length = 0; length <= 8; ++length) {

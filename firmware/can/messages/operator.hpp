@@ -77,7 +77,7 @@ struct Challenge {
 template <>
 inline constexpr auto layout<Challenge> =
     Layout<Challenge, 2>{.info = {.name = "Challenge",
-                                  .id = 0x048,
+                                  .id = 0x090,
                                   .length = 6,
                                   .sender = Node::controller,
                                   .data_ids = 11,
