@@ -3,9 +3,9 @@
 
 #include <set>
 
-#include "firmware/core/supervision/consent.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
 #include "firmware/core/freshness.hpp"
+#include "firmware/core/supervision/consent.hpp"
 #include "firmware/core/supervision/supervisor.hpp"
 
 namespace striker::core {
