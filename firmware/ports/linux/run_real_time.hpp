@@ -6,6 +6,7 @@
 // calls the kernel for nothing but
 //
 //   clock_nanosleep      once a tick
+//   recvmsg              once a tick on the socket of emergency stops, and once more for each of them
 //   recvmmsg, sendmmsg   once a tick on a CAN socket; sendmmsg once more for every frame that is dropped
 //
 // (and clock_gettime, where the machine has no vDSO for it). The rules of the loop itself, overruns among
