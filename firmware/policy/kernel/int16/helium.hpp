@@ -223,14 +223,15 @@ struct Helium {
   template <std::size_t Inputs, std::size_t Outputs>
   struct Packed {
     alignas(16) std::array<std::int16_t, Outputs * columns(Inputs)> weights{};
-    std::array<std::int32_t, Outputs> biases;
+    std::array<std::int32_t, round_up(Outputs, 4)> biases{};  // without padding: they are hashed at run time
   };
 
   template <Role, std::size_t Inputs, std::size_t Outputs>
   static constexpr Packed<Inputs, Outputs> pack(const Layer<Inputs, Outputs>& layer,
                                                 const std::array<std::int32_t, Outputs>& biases) {
     constexpr std::size_t block_columns = helium::lanes * helium::block_vectors;
-    Packed<Inputs, Outputs> packed{{}, biases};
+    Packed<Inputs, Outputs> packed;
+    std::copy(biases.begin(), biases.end(), packed.biases.begin());
     std::size_t at = 0;
     for (std::size_t first = 0; first < Outputs; first += helium::group_rows) {
       for (std::size_t block = 0; block < columns(Inputs); block += block_columns) {

@@ -14,6 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/policy/kernel/packing.hpp"
+
 namespace striker::policy::kernel::int8 {
 
 inline constexpr std::size_t group_rows = 4;
@@ -22,7 +24,8 @@ template <std::size_t Inputs, std::size_t Outputs>
 struct RowGroups {
   static constexpr std::size_t inputs = Inputs;
   static constexpr std::size_t outputs = Outputs;
-  std::array<std::int8_t, Inputs * Outputs> weights{};
+  // Whole words, without padding: they are hashed at run time.
+  std::array<std::int8_t, round_up(Inputs * Outputs, 4)> weights{};
   std::array<std::int32_t, Outputs> biases{};
 };
 
