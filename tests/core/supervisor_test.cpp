@@ -32,8 +32,8 @@ std::vector<Supervisor> all_supervisors() {
                                  {.state = State::self_test},
                                  {.state = State::standby},
                                  {.state = State::active}};
-  for (std::uint8_t first = 1; first < fault_names.size(); ++first) {
-    for (std::uint8_t later = 1; later < fault_names.size(); ++later) {
+  for (std::size_t first = 1; first < fault_names.size(); ++first) {
+    for (std::size_t later = 1; later < fault_names.size(); ++later) {
       all.push_back({.state = State::fault,
                      .fault = static_cast<Fault>(first),
                      .faults = set_of(static_cast<Fault>(first)) | set_of(static_cast<Fault>(later))});

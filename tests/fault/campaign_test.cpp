@@ -28,8 +28,8 @@ CampaignSummary play(const CampaignOptions& options, const std::function<bool()>
 
 class Campaign : public ::testing::Test {
  protected:
-  Campaign() { std::filesystem::remove_all(directory_); }
-  ~Campaign() override { std::filesystem::remove_all(directory_); }
+  void SetUp() override { std::filesystem::remove_all(directory_); }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
 
   [[nodiscard]] std::filesystem::path at(const std::string& name) const { return directory_ / name; }
   [[nodiscard]] std::string runs(const std::string& name) const {

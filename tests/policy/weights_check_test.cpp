@@ -22,9 +22,8 @@ template <class Layer>
 std::span<unsigned char> writable(const Layer& layer) {
   auto* const bytes = reinterpret_cast<unsigned char*>(const_cast<Layer*>(&layer));
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto begin = reinterpret_cast<std::uintptr_t>(bytes) / page * page;
-  const auto end = reinterpret_cast<std::uintptr_t>(bytes) + sizeof layer;
-  EXPECT_EQ(mprotect(reinterpret_cast<void*>(begin), end - begin, PROT_READ | PROT_WRITE), 0);
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(bytes) % page;
+  EXPECT_EQ(mprotect(bytes - before, before + sizeof layer, PROT_READ | PROT_WRITE), 0);
   return {bytes, sizeof layer};
 }
 

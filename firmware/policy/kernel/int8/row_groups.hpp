@@ -25,7 +25,7 @@ struct RowGroups {
   static constexpr std::size_t inputs = Inputs;
   static constexpr std::size_t outputs = Outputs;
   // Whole words, without padding: they are hashed at run time.
-  std::array<std::int8_t, round_up(Inputs * Outputs, 4)> weights{};
+  std::array<std::int8_t, round_up(Inputs* Outputs, 4)> weights{};
   std::array<std::int32_t, Outputs> biases{};
 };
 
