@@ -186,17 +186,26 @@ std::optional<can::Frame> CanSocket::receive() {
     message.msg_control = control.data();
     message.msg_controllen = control.size();
     if (recvmsg(socket_, &message, 0) != static_cast<ssize_t>(sizeof wire)) {
+      emptied_at_ns_ = 0;
       return std::nullopt;
     }
     const Reception reception = reception_of(message);
     note_dropped(reception.dropped);
     if (auto frame = accept(wire)) {
-      timespec now{};
-      clock_gettime(CLOCK_REALTIME, &now);
-      frame->age_ms = age_ms(reception.stamp_ns, to_ns(now));
+      frame->age_ms = age_ms(reception.stamp_ns, time_of_emptying_ns());
       return frame;
     }
   }
+}
+
+// All frames that are taken in a row are taken now: one call for each would cost as much as the frame.
+std::int64_t CanSocket::time_of_emptying_ns() {
+  if (emptied_at_ns_ == 0) {
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    emptied_at_ns_ = to_ns(now);
+  }
+  return emptied_at_ns_;
 }
 
 void CanSocket::note_dropped(std::uint32_t since_made) {

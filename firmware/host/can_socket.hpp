@@ -72,11 +72,13 @@ class CanSocket {
   std::optional<can::Frame> accept(const can_frame& wire);
 
  private:
+  std::int64_t time_of_emptying_ns();
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string interface_;
   int socket_ = -1;
   can::BusHealth health_ = can::BusHealth::active;
+  std::int64_t emptied_at_ns_ = 0;  // by CLOCK_REALTIME, since frames are taken; 0: none waits
   std::uint32_t dropped_ = 0;
   std::uint32_t lost_ = 0;
   bool went_off_ = false;  // since `health` was asked
