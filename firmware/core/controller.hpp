@@ -139,14 +139,14 @@ class Controller {
     PilotType pilot;
   };
 
-  // Nothing of it can be believed, but that the robot has to stand.
+  // Nothing of it can be believed, the robot's limits included, but that it has to stand.
   void forget_corrupt_state() {
     const Supervisor corrupt = {
         .state = State::fault,
         .fault = Fault::state_corrupt,
         .faults = (now_.supervisor.faults & known_faults) | set_of(Fault::state_corrupt)};
     const std::uint32_t tick = now_.tick;
-    now_ = Now(now_.robot, now_.consent.next_seed());
+    now_ = Now(RobotProfile{}, now_.consent.next_seed());
     now_.tick = now_.boot_tick = now_.fault_tick = tick;
     memory_ = {};
     memory_is_open_ = true;
