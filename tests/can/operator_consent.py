@@ -37,27 +37,28 @@ def challenge_in(payload):
 
 
 class Confirming:
-    """Puts a controller's own challenge into the confirmations of a recorded run."""
+    """Puts a controller's own challenge into the confirmations of a recorded run, each once that has come."""
 
     def __init__(self):
-        self.challenge = 0
+        self._challenge = 0
+        self._waiting = []
 
     def hear(self, identifier, payload):
         """Takes note of a frame of the controller's, and hands it on."""
         if identifier == CHALLENGE:
-            self.challenge = challenge_in(payload)[1]
+            self._challenge = challenge_in(payload)[1]
         return identifier, payload
 
-    def passed_on(self, identifier, payload):
-        if identifier == MODE_COMMAND and striker_dbc.raw("ModeCommand", "challenge", payload):
-            changed = payload[:2] + self.challenge.to_bytes(4, "little")
-            return protect("ModeCommand", changed, payload[1] & 0xF)
-        return payload
-
     def lines(self, frames):
-        """The same for a tick's slcan lines."""
+        """What to send for a tick's slcan lines."""
         lines = []
         for line in frames.split(b"\r")[:-1]:
             identifier, payload = int(line[1:4], 16), bytes.fromhex(line[5:].decode())
-            lines.append(line[:5] + self.passed_on(identifier, payload).hex().upper().encode() + b"\r")
-        return b"".join(lines)
+            confirms = identifier == MODE_COMMAND and striker_dbc.raw("ModeCommand", "challenge", payload)
+            (self._waiting if confirms else lines).append(line)
+        if self._challenge and self._waiting:
+            line = self._waiting.pop(0)
+            payload = bytes.fromhex(line[5:].decode())[:2] + self._challenge.to_bytes(4, "little")
+            lines.append(line[:5] + protect("ModeCommand", payload, payload[1] & 0xF).hex().upper().encode())
+            self._challenge = 0
+        return b"".join(line + b"\r" for line in lines)
