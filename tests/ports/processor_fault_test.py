@@ -191,7 +191,7 @@ def has_torque(frame):
 def drive(machine, ticks):
     """Arms, as recorded, and returns once the wheels are driven: the ticks that are left."""
     driven = 0
-    for at, frames in enumerate(ticks[:400]):
+    for at, frames in enumerate(ticks[:600]):
         came = machine.tick(frames)
         driven += any(map(has_torque, came))
         if driven == 5:
