@@ -6,8 +6,9 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
+
+import files_case
 
 BIN = sys.argv.pop(1)
 
@@ -21,18 +22,7 @@ def kick(*arguments):
                           capture_output=True, text=True)
 
 
-class BudgetCommandLine(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
-
-    def file(self, name, text=None):
-        path = os.path.join(self.directory.name, name)
-        if text is not None:
-            with open(path, "w", encoding="ascii") as stream:
-                stream.write(text)
-        return path
-
+class BudgetCommandLine(files_case.FilesCase):
     def test_every_deadline_is_met_at_1_mbit_s(self):
         result = budget("--json", self.file("a.json"))
         self.assertEqual(result.returncode, 0, result.stderr)

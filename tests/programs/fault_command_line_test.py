@@ -7,8 +7,9 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
+
+import files_case
 
 BIN = sys.argv.pop(1)
 
@@ -35,18 +36,7 @@ def sil(*arguments, prefix=()):
                           timeout=300)
 
 
-class Faults(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
-
-    def file(self, name, text=None):
-        path = os.path.join(self.directory.name, name)
-        if text is not None:
-            with open(path, "w", encoding="utf-8") as stream:
-                stream.write(text)
-        return path
-
+class Faults(files_case.FilesCase):
     def test_a_plan_is_played_and_reported(self):
         result = sil("faults", "--plan", self.file("p.toml", PLAN), "--episodes", "2", "--json", self.file("f.json"))
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -8,8 +8,9 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
+
+import files_case
 
 BIN = sys.argv.pop(1)
 
@@ -34,10 +35,9 @@ until_ms = 1500
 """
 
 
-class FaultVcan(unittest.TestCase):
+class FaultVcan(files_case.FilesCase):
     def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
+        super().setUp()
         self.firmware = subprocess.Popen([os.path.join(BIN, "striker-firmware"), "--can", "vcan0", "--clock", "sync"],
                                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.firmware.stdout.readline()  # says when it listens
@@ -45,9 +45,7 @@ class FaultVcan(unittest.TestCase):
         self.addCleanup(self.firmware.send_signal, signal.SIGTERM)
 
     def row(self, plan, bus):
-        files = [os.path.join(self.directory.name, name) for name in ("plan.toml", "report.json")]
-        with open(files[0], "w", encoding="utf-8") as stream:
-            stream.write(plan)
+        files = [self.file("plan.toml", plan), self.file("report.json")]
         result = subprocess.run([os.path.join(BIN, "striker-sil"), "faults", "--plan", files[0], "--episodes", "1",
                                  "--bus", bus, "--json", files[1]], capture_output=True, text=True, timeout=280)
         self.assertEqual(result.returncode, 0, result.stderr)

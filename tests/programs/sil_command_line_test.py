@@ -9,9 +9,10 @@ import resource
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
+
+import files_case
 
 BIN = sys.argv.pop(1)
 
@@ -20,14 +21,7 @@ def sil(*arguments):
     return subprocess.run([os.path.join(BIN, "striker-sil"), *arguments], capture_output=True, text=True, timeout=120)
 
 
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
-
-    def file(self, name):
-        return os.path.join(self.directory.name, name)
-
+class CommandLine(files_case.FilesCase):
     def expect_error(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
         for word in words:

@@ -10,12 +10,12 @@ import socket
 import struct
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "can"))
 
+import files_case  # noqa: E402
 import striker_dbc  # noqa: E402
 
 BIN = sys.argv.pop(1)
@@ -63,15 +63,8 @@ def moves(payload):
     return any(payload[2:])
 
 
-class Vcan(unittest.TestCase):
+class Vcan(files_case.FilesCase):
     maxDiff = 2000
-
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
-
-    def file(self, name):
-        return os.path.join(self.directory.name, name)
 
     def kick(self, log, *arguments):
         result = run("striker-sil", "kick", "--episodes", "2", "--seed", "7", "--log", self.file(log), *arguments)
