@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "firmware/can/frame.hpp"
 
@@ -71,6 +72,13 @@ inline constexpr auto table = [] {
   }
   crc = crc8::update(crc, data_id(list, counter_of(frame)));
   return static_cast<std::uint8_t>(crc ^ crc8::final_xor);
+}
+
+// The counter of a frame whose length and CRC are correct.
+[[nodiscard]] constexpr std::optional<std::uint8_t> sound_counter(const Frame& frame, std::uint8_t length,
+                                                                  DataIdList list) {
+  const bool sound = frame.length == length && frame.data[0] == protection_crc(frame, list);
+  return sound ? std::optional(counter_of(frame)) : std::nullopt;
 }
 
 constexpr void protect(Frame& frame, DataIdList list, std::uint8_t counter) {

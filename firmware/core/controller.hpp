@@ -176,8 +176,8 @@ class Controller {
     const bool vision_fresh = now_.vigilance.vision_is_fresh();
     const bool stays_active = now_.supervisor.state == State::active && !disarm;
     const Faults causes = now_.vigilance.causes(stays_active) | inputs.port_faults |
-                          (now_.weights.step() ? 0 : set_of(Fault::policy_corrupt)) |
-                          (went_back ? set_of(Fault::clock_invalid) : 0);
+                          set_if(!now_.weights.step(), Fault::policy_corrupt) |
+                          set_if(went_back, Fault::clock_invalid);
     return {.self_test = now_.self_test,
             .granted = {.arm = granted == Order::arm, .disarm = disarm, .clear = granted == Order::clear},
             .emergency_stop = now_.vigilance.stop_is_pressed(),

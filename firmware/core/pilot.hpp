@@ -6,7 +6,7 @@
 // feed. One image may hold several pilots; each is a plain value, without statics, and copies go on alone.
 //
 //   Pilot<policy::kick> pilot;
-//   const Decision decision = pilot.decide(relative_state(estimator.at(tick)), false);
+//   const Decision decision = pilot.decide(relative_state(estimator.at(tick, odometry)), false);
 //   loops.step(robot, pilot.set_point(), measured);
 //
 // Cost: a decision is one forward pass, whose instruction count does not depend on the input.

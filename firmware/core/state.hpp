@@ -29,7 +29,7 @@ enum class Fault : std::uint8_t {
   wheel_state_lost = 4,  // active, and no wheel speeds within `wheel_timeout_ticks`
   sync_lost = 5,         // lockstep: the simulator's ticks stopped
   overrun = 6,           // the port missed more ticks than its limit
-  overspeed = 7,         // a wheel beyond its greatest speed was to be driven further, or stays beyond it
+  overspeed = 7,         // a wheel beyond its greatest speed was to be driven further
   command_rejected = 8,  // the final check refused the command
   bus_off = 9,           // the CAN controller left the bus
   wheel_state_invalid = 10,  // wheel states come, but repeated, out of order, wrong, or from two senders
@@ -92,6 +92,10 @@ inline constexpr Faults known_faults = (Faults{1} << fault_names.size()) - 2;
 
 [[nodiscard]] constexpr Faults set_of(Fault fault) {
   return fault == Fault::none ? 0 : Faults{1} << static_cast<unsigned>(fault);
+}
+
+[[nodiscard]] constexpr Faults set_if(bool condition, Fault fault) {
+  return condition ? set_of(fault) : 0;
 }
 
 [[nodiscard]] constexpr std::string_view name_of(State state) {

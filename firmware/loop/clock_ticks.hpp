@@ -63,7 +63,7 @@ class ClockTicks {
     return Tick{.number = last_.wake.tick,
                 .frames = received.frames,
                 .timing = window_.message(),
-                .port_faults = overrun ? core::set_of(core::Fault::overrun) : 0};
+                .port_faults = core::set_if(overrun, core::Fault::overrun)};
   }
 
   void end(const can::FrameList& sent) { window_.restart_if_among(sent); }

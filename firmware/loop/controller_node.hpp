@@ -50,7 +50,7 @@ class ControllerNode {
     controller_.step(
         {.tick = tick.number,
          .percepts = receiver_.take(tick.frames, tick.number, drives_),
-         .port_faults = tick.port_faults | (gate.has_blocked ? core::set_of(core::Fault::gate_blocked) : 0),
+         .port_faults = tick.port_faults | core::set_if(gate.has_blocked, core::Fault::gate_blocked),
          .stop = tick.stop},
         actions);
     reporter_.report(tick.number, actions, receiver_.ignored(),

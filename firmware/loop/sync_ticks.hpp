@@ -94,7 +94,7 @@ class SyncTicks {
     }
     const bool leaps = running_ && ahead > greatest_leap_ticks;
     errors_ -= errors_ == 0 ? 0 : 1;
-    return begin(ahead, {.port_faults = leaps ? core::set_of(core::Fault::sync_invalid) : 0});
+    return begin(ahead, {.port_faults = core::set_if(leaps, core::Fault::sync_invalid)});
   }
 
   void keep(const can::Frame& frame) {

@@ -107,8 +107,7 @@ class CommandGate {
   [[gnu::noinline]] static std::optional<std::uint8_t> sequence_of(const can::Frame& frame,
                                                                    std::uint8_t length,
                                                                    can::DataIdList list) {
-    const bool sound = frame.length == length && frame.data[0] == can::protection_crc(frame, list);
-    return sound ? std::optional(can::counter_of(frame)) : std::nullopt;
+    return can::sound_counter(frame, length, list);
   }
 
   [[gnu::noinline]] void take_mode(const can::Frame& frame, std::uint32_t tick) {

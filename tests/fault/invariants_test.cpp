@@ -53,7 +53,7 @@ TEST(Invariants, TorqueAndSetPointHaveTheRobotsLimits) {
   fast.expect(Invariant::limits);
 }
 
-TEST(Invariants, AStopIsObeyedWithinTwoTicksUntilItIsCleared) {
+TEST(Invariants, AStopIsObeyedWithinTwoTicks) {
   Forger run;
   run.run(100);
   run.forged = {run.stop()};

@@ -35,8 +35,7 @@ class StrikerDrives {
 
   [[nodiscard]] static std::optional<std::uint8_t> sequence(const Frame& frame) {
     constexpr const MessageInfo& info = layout<WheelState>.info;
-    const bool correct = frame.length == info.length && frame.data[0] == protection_crc(frame, info.data_ids);
-    return correct ? std::optional(counter_of(frame)) : std::nullopt;
+    return sound_counter(frame, info.length, info.data_ids);
   }
   // What is out of range moves nothing: no drive accepts it.
   [[nodiscard]] static core::DriveCommand command_of(const Frame& frame) {

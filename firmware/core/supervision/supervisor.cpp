@@ -5,10 +5,6 @@ namespace striker::core {
 
 namespace {
 
-constexpr Faults set_if(bool condition, Fault fault) {
-  return condition ? set_of(fault) : 0;
-}
-
 // What this tick shows to be wrong in this state.
 Faults causes_in(State state, const Conditions& conditions) {
   // A disarm takes the torque anyway, and makes the vision stale by itself.

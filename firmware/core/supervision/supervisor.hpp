@@ -30,7 +30,7 @@ struct Conditions {
   SelfTest self_test = SelfTest::running;
   Granted granted;
   bool emergency_stop = false;  // a stop was pressed within its hold time
-  Faults causes = 0;            // that are faults in every state, as long as they are seen
+  Faults causes = 0;            // of faults that this tick shows, beside those below
   bool vision_fresh = false;
   bool vision_ready = false;  // fresh, and good for a velocity: arming needs it
   bool wheels_fresh = false;

@@ -93,7 +93,6 @@ class Vigilance {
   }
 
  private:
-  static constexpr Faults set_if(bool condition, Fault fault) { return condition ? set_of(fault) : 0; }
   static constexpr std::uint32_t aged(std::uint32_t ticks, std::uint32_t elapsed) {
     return std::min(ticks + elapsed, 2 * armed_limit_ticks);
   }

@@ -8,7 +8,7 @@ static striker_frame answers[STRIKER_MOST_ANSWERS];
 int main(void) {
   uint32_t tick;
   size_t sent = 0;
-  striker_init(&controller);
+  striker_init(&controller, 4); /* on a board: another number at every start */
   for (tick = 1; tick <= 1000; ++tick) {
     sent += striker_step(&controller, NULL, 0, tick, answers, STRIKER_MOST_ANSWERS);
   }

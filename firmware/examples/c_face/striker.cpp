@@ -53,8 +53,8 @@ striker_frame frame_for_c(const can::Frame& from) {
 
 }  // namespace
 
-void striker_init(striker_controller* controller) {
-  new (controller->storage) Node(robot);
+void striker_init(striker_controller* controller, uint32_t seed) {
+  new (controller->storage) Node(robot, seed);
 }
 
 size_t striker_step(striker_controller* controller, const striker_frame* frames, size_t count, uint32_t tick,

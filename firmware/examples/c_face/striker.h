@@ -2,7 +2,7 @@
 /* The controller for firmware in C: one call a tick of 1 ms, from CAN frames in to CAN frames out.
  *
  *   static striker_controller controller;
- *   striker_init(&controller);
+ *   striker_init(&controller, random_number());
  *   every 1 ms:
  *     count = striker_step(&controller, received, received_count, tick, answers, STRIKER_MOST_ANSWERS);
  *     send answers[0] to answers[count - 1], in this order
@@ -48,8 +48,9 @@ typedef struct striker_controller {
   uint64_t storage[96];
 } striker_controller;
 
-/* Fresh from boot. Once before anything else; again to restart. */
-void striker_init(striker_controller* controller);
+/* Fresh from boot. Once before anything else; again to restart. `seed`: another number at every start, never 0: from it
+ * follows what an operator has to confirm, and no recording of another run may fit. */
+void striker_init(striker_controller* controller, uint32_t seed);
 
 /* One tick. `frames` are those received since the last step, in the order of reception; may be null if
  * `count` is 0. `tick` is the time in ms; it wraps, and may jump forward where ticks were missed. Writes at

@@ -35,6 +35,7 @@ std::span<const can::Frame> receive_all() {
 }  // namespace
 
 int main() {
+  node.seed_challenges(own_port::random_number());
   std::uint32_t tick = 0;
   while (own_port::wait_for_tick(tick)) {
     node.step({.number = tick, .frames = receive_all()}, answer);

@@ -8,6 +8,10 @@ bool wait_for_tick(std::uint32_t& tick) {
   return ++tick <= 1000;
 }
 
+std::uint32_t random_number() {
+  return 4;
+}
+
 bool receive(striker::can::Frame&) {
   return false;
 }

@@ -27,7 +27,7 @@
 //
 // Transmission. The lowest identifier first, as the bus arbitrates, or a status frame holds back a wheel
 // command: that is what striker-bus-budget reckons with. Frames of one identifier keep the order of the
-// calls, or their counters look like a loss. A tick makes 1 or 2 frames as a rule, and at most 7. A frame
+// calls, or their counters look like a loss. A tick makes 1 or 2 frames as a rule, and at most 9. A frame
 // that has not gone after 10 ms is taken back (the wheel command's timeout: the drives have cut the
 // torque), and at bus-off all are: a command that waits for a cable must not move a wheel when that is
 // plugged in.

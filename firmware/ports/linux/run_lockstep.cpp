@@ -14,6 +14,7 @@ namespace striker::linux_port {
 
 namespace {
 
+// A stop waits on the other socket for this long at most.
 constexpr std::chrono::milliseconds wait_limit{2};
 constexpr std::chrono::milliseconds fault_report_period{can::layout<can::FaultReport>.info.period_ms};
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// What wheels and pictures cannot be, at the limits, and for robots 10 % off the description.
+#include "firmware/core/estimation/plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+namespace striker::core {
+namespace {
+
+constexpr RobotProfile robot = profile_of(forward);
+
+// A rim under full torque that gains `factor` of what the profile expects; how often that was impossible.
+int impossible_with(double factor, double told_factor, int ticks = 200) {
+  WheelPlausibility plausibility;
+  double speed_mm_s = 0.0;
+  int impossible = 0;
+  for (int tick = 0; tick < ticks; ++tick) {
+    const bool forwards = tick / 50 % 2 == 0;  // a reversal every decision
+    const std::int32_t torque_mNm = forwards ? robot.torque_limit_mNm : -robot.torque_limit_mNm;
+    speed_mm_s += factor * 27.8e-3 * torque_mNm;  // mm/s in a tick of 1 ms, for each mNm
+    const auto told = static_cast<std::int32_t>(told_factor * speed_mm_s);
+    const WheelTorques torque{torque_mNm, torque_mNm};
+    impossible +=
+        plausibility.possible(robot, static_cast<std::uint32_t>(tick), {told, told}, torque) ? 0 : 1;
+  }
+  return impossible;
+}
+
+TEST(WheelPlausibility, ARobotOfAnotherMassOrTorqueIsPossible) {
+  for (const double factor : {0.0, 0.5, 0.9, 1.0, 1.1, 1.5}) {
+    EXPECT_EQ(impossible_with(factor, 1.0), 0) << factor;
+  }
+}
+
+TEST(WheelPlausibility, AReversedWheelIsImpossibleWithinTwoWindows) {
+  for (const double factor : {0.9, 1.0, 1.1}) {
+    EXPECT_GT(impossible_with(factor, -1.0, 40), 0) << factor;
+  }
+}
+
+TEST(WheelPlausibility, AJumpIsImpossibleAndAGapExplainsAGreaterOne) {
+  for (const std::int32_t jump_mm_s : {1'000, 1'001}) {
+    WheelPlausibility plausibility;
+    EXPECT_TRUE(plausibility.possible(robot, 100, {}, {}));
+    EXPECT_EQ(plausibility.possible(robot, 101, {jump_mm_s, 0}, {}), jump_mm_s <= 1'000);
+    EXPECT_TRUE(plausibility.possible(robot, 103, {jump_mm_s - 1'900, 0}, {}));
+  }
+}
+
+TEST(WheelPlausibility, NoWheelIsTwiceAsFastAsItsTopSpeed) {
+  for (const std::int32_t speed_mm_s : {2 * robot.top_rim_speed_mm_s, 2 * robot.top_rim_speed_mm_s + 1}) {
+    WheelPlausibility plausibility;
+    EXPECT_EQ(plausibility.possible(robot, 1, {0, -speed_mm_s}, {}),
+              speed_mm_s <= 2 * robot.top_rim_speed_mm_s);
+  }
+}
+
+TEST(PicturePlausibility, ANumberFitsItsTimeByLessThanAPeriod) {
+  for (std::int32_t pictures = 1; pictures <= 3; ++pictures) {
+    const auto due = static_cast<std::uint32_t>(50 * pictures);
+    EXPECT_TRUE(number_fits(pictures, due - 45) && number_fits(pictures, due) &&
+                number_fits(pictures, due + 45));
+    EXPECT_FALSE(number_fits(pictures, due - 46) || number_fits(pictures, due + 46));
+  }
+}
+
+// In every direction, on an arc, with axle and radius 10 % off.
+TEST(PicturePlausibility, WheelsAgreeWithARobotTenPercentOff) {
+  for (std::int32_t heading = -32'000; heading < 32'000; heading += 1'000) {
+    for (const double off : {0.9, 1.0, 1.1}) {
+      Odometry odometry;
+      odometry.take({2'000, 2'400});
+      for (std::uint32_t tick = 1; tick <= 50; ++tick) {
+        odometry.advance(tick);
+      }
+      // 110 mm along an arc of 20 mm between the rims on 140 mm: 0.143 rad.
+      const double turned = off * 0.142857 * 10'430.4;
+      const auto end = static_cast<std::int32_t>(heading + turned);
+      const Vector way = rotate({static_cast<std::int32_t>(off * 110'000), 0},
+                                wrap_angle(static_cast<std::int32_t>(heading + turned / 2)));
+      const Picture from{.number = 0, .robot_um = {}, .heading = wrap_angle(heading), .ball_um = {}};
+      const Picture to{.number = 1, .robot_um = way, .heading = wrap_angle(end), .ball_um = {}};
+      EXPECT_TRUE(wheels_agree(robot, from, to, odometry)) << heading << " " << off;
+      const Picture backwards{
+          .number = 1, .robot_um = {-way.x, -way.y}, .heading = wrap_angle(end), .ball_um = {}};
+      EXPECT_FALSE(wheels_agree(robot, from, backwards, odometry)) << heading;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace striker::core
