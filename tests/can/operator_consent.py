@@ -5,7 +5,7 @@ from the message table's manual (firmware/can/e2e.hpp), not from its code."""
 import striker_dbc
 
 DATA_ID_BASE = (0x00, 0x06, 0x09, 0x0F, 0x18, 0x1E, 0x11, 0x17, 0x21, 0x27, 0x28, 0x2E, 0x39, 0x3F, 0x30, 0x36)
-MODE_COMMAND, CHALLENGE = map(striker_dbc.identifier, ("ModeCommand", "Challenge"))
+MODE_COMMAND, CHALLENGE, STATUS = map(striker_dbc.identifier, ("ModeCommand", "Challenge", "Status"))
 
 
 def crc8h2f(data):
@@ -36,29 +36,46 @@ def challenge_in(payload):
     return (striker_dbc.named("Challenge", "mode", payload), striker_dbc.raw("Challenge", "challenge", payload))
 
 
-class Confirming:
-    """Puts a controller's own challenge into the confirmations of a recorded run, each once that has come."""
+class Operator:
+    """The operator of a recorded run, in front of another controller: asks to arm from the tick on in which the recorded
+    one does, confirms every challenge, and goes on until the controller is active. Who only repeats the recorded frames
+    arms nothing, and who asks once arms nothing where a host's stall has made the pictures old in that very tick."""
+
+    ASK_EVERY_TICKS = 10
 
     def __init__(self):
-        self._challenge = 0
-        self._waiting = []
+        self._arming = False
+        self._challenge = None
+        self._counter = 0
+        self._pause_ticks = 0
 
     def hear(self, identifier, payload):
         """Takes note of a frame of the controller's, and hands it on."""
         if identifier == CHALLENGE:
-            self._challenge = challenge_in(payload)[1]
+            self._challenge = challenge_in(payload)
+        elif identifier == STATUS and striker_dbc.named("Status", "state", payload) == "active":
+            self._arming = False
         return identifier, payload
 
     def lines(self, frames):
-        """What to send for a tick's slcan lines."""
+        """What to send for a tick's slcan lines: the operator's own in place of the recorded one's."""
         lines = []
         for line in frames.split(b"\r")[:-1]:
-            identifier, payload = int(line[1:4], 16), bytes.fromhex(line[5:].decode())
-            confirms = identifier == MODE_COMMAND and striker_dbc.raw("ModeCommand", "challenge", payload)
-            (self._waiting if confirms else lines).append(line)
-        if self._challenge and self._waiting:
-            line = self._waiting.pop(0)
-            payload = bytes.fromhex(line[5:].decode())[:2] + self._challenge.to_bytes(4, "little")
-            lines.append(line[:5] + protect("ModeCommand", payload, payload[1] & 0xF).hex().upper().encode())
-            self._challenge = 0
+            arms = int(line[1:4], 16) == MODE_COMMAND and striker_dbc.named(
+                "ModeCommand", "mode", bytes.fromhex(line[5:].decode())) == "arm"
+            self._arming |= arms
+            if not arms:
+                lines.append(line)
+        self._pause_ticks -= 1
+        if self._arming and self._challenge:
+            lines.append(self._line(*self._challenge))
+            self._challenge = None
+        elif self._arming and self._pause_ticks < 0:
+            lines.append(self._line("arm", 0))
+            self._pause_ticks = self.ASK_EVERY_TICKS
         return b"".join(line + b"\r" for line in lines)
+
+    def _line(self, mode, challenge):
+        self._counter = (self._counter + 1) % 16
+        payload = mode_command(mode, challenge, self._counter)
+        return f"t{MODE_COMMAND:03X}{len(payload)}{payload.hex().upper()}".encode()

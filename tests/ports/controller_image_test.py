@@ -54,9 +54,9 @@ def connect(path):
 
 def exchange(serial, ticks):
     """Sends a tick's frames whenever a wheel command has come; what came back, by identifier."""
-    answers, waiting, confirming = {}, b"", operator_consent.Confirming()
+    answers, waiting, operator = {}, b"", operator_consent.Operator()
     for frames in ticks:
-        serial.sendall(confirming.lines(frames))
+        serial.sendall(operator.lines(frames))
         commanded = False
         while not commanded:
             received = serial.recv(65536)
@@ -66,7 +66,7 @@ def exchange(serial, ticks):
             for line in lines:
                 identifier = int(line[1:4], 16)
                 payload = bytes.fromhex(line[5:].decode())
-                confirming.hear(identifier, payload)
+                operator.hear(identifier, payload)
                 answers.setdefault(identifier, []).append(payload)
                 commanded |= identifier == WHEEL_COMMAND
     return answers

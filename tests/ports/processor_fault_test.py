@@ -143,7 +143,7 @@ class Machine:
         stack.callback(process.kill)
         self._serial = stack.enter_context(controller_image_test.connect(paths["serial"]))
         self._waiting = b""
-        self._confirming = operator_consent.Confirming()
+        self._operator = operator_consent.Operator()
         self.control = Control(paths["control"])
         if processor := board["qemu"]["power_on"]:
             self.control.ask("qom-set", path=processor, property="start-powered-off", value=False)
@@ -166,7 +166,7 @@ class Machine:
         received = self._serial.recv(65536)
         expect(received, "the image stopped")
         *lines, self._waiting = (self._waiting + received).split(b"\r")
-        return [self._confirming.hear(int(line[1:4], 16), bytes.fromhex(line[5:].decode())) for line in lines
+        return [self._operator.hear(int(line[1:4], 16), bytes.fromhex(line[5:].decode())) for line in lines
                 if re.fullmatch(rb"t[0-9A-F]{4}([0-9A-F]{2})*", line)]
 
     def drain(self):
@@ -175,7 +175,7 @@ class Machine:
 
     def tick(self, frames):
         """Sends a tick's frames, and returns what came up to the next wheel command."""
-        self.send(self._confirming.lines(frames))
+        self.send(self._operator.lines(frames))
         came, end = [], time.monotonic() + 30
         while not any(identifier == controller_image_test.WHEEL_COMMAND for identifier, _ in came):
             came += self.frames(1)
@@ -221,7 +221,7 @@ def check_record(case, cpu, debugger, names, at):
 
 
 def break_while_driving(board, image, case, ticks):
-    for _ in range(4):
+    for _ in range(9):
         with contextlib.suppress(NotDriven):
             return break_once(board, image, case, ticks)
     return break_once(board, image, case, ticks)
