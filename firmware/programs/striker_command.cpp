@@ -12,7 +12,7 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/message_receiver.hpp"
-#include "firmware/host/can_socket.hpp"
+#include "firmware/host/can/can_socket.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
 

@@ -25,15 +25,20 @@
 #include "firmware/ports/linux/run_lockstep.hpp"
 #include "firmware/ports/linux/run_real_time.hpp"
 #include "firmware/ports/linux/stop_identifiers.hpp"
+#include "firmware/programs/replay_log.hpp"
 
 namespace {
 
 using namespace striker;
 using namespace striker::linux_port;
 
+constexpr int exit_differs = 1;  // replay
+
 struct Options {
   std::string can;
   bool in_process = false;
+  std::string replay;
+  std::string interface;
   std::string clock = "sync";
   unsigned sync_timeout_ms = 2000;
   std::optional<std::uint32_t> challenge_seed;
@@ -51,7 +56,10 @@ void define_bus(CLI::App& app, Options& options) {
   bus->add_option("--can", options.can, "CAN interface, for example vcan0");
   bus->add_flag("--in-process", options.in_process,
                 "no CAN: a bench in this process plays drives, vision and operator; realtime only");
+  bus->add_option("--replay", options.replay,
+                  "no CAN: a candump log of a run in lockstep; its answers are compared, bit by bit");
   bus->require_option(1);
+  app.add_option("--interface", options.interface, "replay: of the log, where it has more than one");
   app.add_option("--clock", options.clock, "what ticks the controller")
       ->check(CLI::IsMember({"sync", "realtime"}))
       ->capture_default_str();
@@ -222,11 +230,23 @@ void run_on_own_clock(Options options) {
   }
 }
 
+// Recorded runs have seed 0, unless another is given.
+int run_replay(const Options& options) {
+  const host::ReplayReport report =
+      replay_log(options.replay, options.interface, options.challenge_seed.value_or(0), host::stop_requested);
+  fmt::print("{}", host::format_report(report));
+  if (host::stop_requested()) {
+    return host::exit_interrupted;
+  }
+  return report.differing == 0 ? 0 : exit_differs;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("The kick controller. Stops cleanly on SIGINT or SIGTERM, with torque 0 sent.",
-               "striker-firmware");
+  CLI::App app(
+      "The kick controller. Stops cleanly on SIGINT or SIGTERM, with torque 0 sent. Exit status: 0 stopped, or a replay with the recorded answers; 1 a replay with others; 2 wrong use, or a bus that fails; 130 a replay that was interrupted.",
+      "striker-firmware");
   Options options;
   define_bus(app, options);
   define_real_time(app, options);
@@ -234,6 +254,9 @@ int main(int argc, char** argv) {
       app, argc, argv,
       [&] {
         host::catch_stop_signals();
+        if (!options.replay.empty()) {
+          return run_replay(options);
+        }
         if (options.clock == "sync") {
           run_on_sync(options);
         } else {

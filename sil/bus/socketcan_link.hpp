@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware/host/can_socket.hpp"
+#include "firmware/host/can/can_socket.hpp"
 #include "sil/bus/controller_link.hpp"
 #include "sil/bus/peer_watch.hpp"
 

@@ -12,6 +12,7 @@
 #include "firmware/host/stop_signal.hpp"
 #include "sil/fault/plan/catalogue.hpp"
 #include "sil/fault/plan/plan_file.hpp"
+#include "sil/programs/kick_options.hpp"
 #include "sil/scenario/fault_report.hpp"
 #include "sil/scenario/worker_pool.hpp"
 
@@ -26,7 +27,7 @@ FaultRunOptions run_options(const FaultOptions& options, std::uint64_t episode) 
           .anywhere = options.pose == "anywhere",
           .seed = options.seed,
           .episode = episode,
-          .interface = options.bus == "inproc" ? "" : options.bus.substr(4)};
+          .interface = interface_of(options.bus)};
 }
 
 // Of a plan from a file every case is played, or the first that cannot be says why not.
@@ -120,10 +121,7 @@ void define(CLI::App& faults, FaultOptions& options) {
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();
   faults.add_option("--bus", options.bus, "inproc, or can:IFACE with a striker-firmware --clock sync on it")
-      ->check([](const std::string& bus) {
-        return bus == "inproc" || bus.starts_with("can:") ? std::string()
-                                                          : "give inproc or can:IFACE, as can:vcan0";
-      })
+      ->check(bus_problem)
       ->capture_default_str();
   faults.add_option("--episodes", options.episodes, "a fault, where the plan names none")
       ->check(CLI::Range(1, 1000))

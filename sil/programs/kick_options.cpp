@@ -11,11 +11,6 @@ namespace striker::sil {
 
 namespace {
 
-std::string bus_problem(const std::string& bus) {
-  return bus == "inproc" || bus.starts_with("can:") ? std::string()
-                                                    : "give inproc or can:IFACE, as can:vcan0";
-}
-
 std::vector<std::string> plant_names() {
   std::vector<std::string> names;
   names.reserve(plant_kinds.size());
@@ -74,6 +69,12 @@ void define_files(CLI::App& kick, KickOptions& options) {
 }
 
 }  // namespace
+
+std::string bus_problem(const std::string& bus) {
+  return bus == "inproc" || (bus.starts_with("can:") && bus.size() > 4)
+             ? std::string()
+             : "give inproc or can:IFACE, as can:vcan0";
+}
 
 void define(CLI::App& kick, KickOptions& options) {
   kick.add_option("--bus", options.bus, "inproc: the controller in this process; can:IFACE: over SocketCAN")

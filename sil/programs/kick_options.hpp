@@ -8,6 +8,12 @@
 
 namespace striker::sil {
 
+// For --bus: what is wrong with it, and the way out; and the interface of can:IFACE.
+[[nodiscard]] std::string bus_problem(const std::string& bus);
+[[nodiscard]] inline std::string interface_of(const std::string& bus) {
+  return bus == "inproc" ? std::string() : bus.substr(4);
+}
+
 struct KickOptions {
   std::string bus = "inproc";
   std::string plant = "drive";

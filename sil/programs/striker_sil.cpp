@@ -18,6 +18,7 @@
 #include "sil/programs/campaign_command.hpp"
 #include "sil/programs/fault_command.hpp"
 #include "sil/programs/kick_options.hpp"
+#include "sil/programs/replay_command.hpp"
 #include "sil/record/candump_log.hpp"
 #include "sil/record/decision_csv.hpp"
 #include "sil/record/episode_progress.hpp"
@@ -45,7 +46,7 @@ struct Bus {
 
 Bus open_bus(const KickOptions& options) {
   Bus bus;
-  const std::string interface = options.in_process() ? "" : options.bus.substr(4);
+  const std::string interface = interface_of(options.bus);
   if (options.in_process()) {
     bus.in_process = std::make_unique<InProcessLink>();
   } else if (options.real_time) {
@@ -171,12 +172,19 @@ int main(int argc, char** argv) {
   CLI::App* campaign = app.add_subcommand("campaign", "play many random combinations of faults");
   CampaignOptions campaign_options;
   define(*campaign, campaign_options);
+  CLI::App* replay =
+      app.add_subcommand("replay", "give a recorded run's frames to a controller, and compare");
+  ReplayOptions replay_options;
+  define(*replay, replay_options);
   return host::run(
       app, argc, argv,
       [&] {
         host::catch_stop_signals();
         if (campaign->parsed()) {
           return play_campaign(campaign_options);
+        }
+        if (replay->parsed()) {
+          return play_replay(replay_options);
         }
         return faults->parsed() ? play_faults(fault_options) : play_kicks(options);
       },

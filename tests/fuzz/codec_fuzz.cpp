@@ -4,7 +4,7 @@
 
 #include <bit>
 
-#include "tests/fuzz/any_frame.hpp"
+#include "tests/fuzz/support/any_frame.hpp"
 
 namespace striker::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "tests/fuzz/bytes.hpp"
+#include "tests/fuzz/support/bytes.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace striker;

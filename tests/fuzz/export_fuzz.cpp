@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/fuzz/bytes.hpp"
+#include "tests/fuzz/support/bytes.hpp"
 #include "training/export/quantise.hpp"
 #include "training/task/task_config.hpp"
 

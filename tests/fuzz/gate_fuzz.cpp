@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "firmware/can/drives/striker_drives.hpp"
-#include "tests/fuzz/any_frame.hpp"
+#include "tests/fuzz/support/any_frame.hpp"
 
 namespace striker::fuzz {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller behind its gate, as every port runs it, between an honest world and an attacker who knows the
 // table and its checksums, on a port whose clock, faults and losses are as bad as they get. What must hold on
-// every tick stands in node_invariants.hpp.
+// every tick stands in support/node_invariants.hpp.
 #include <algorithm>
 #include <array>
 
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/gated_node.hpp"
-#include "tests/fuzz/honest_world.hpp"
-#include "tests/fuzz/node_invariants.hpp"
+#include "tests/fuzz/support/honest_world.hpp"
+#include "tests/fuzz/support/node_invariants.hpp"
 
 namespace striker::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "sil/fault/plan/fault_plan.hpp"
 #include "sil/fault/plan/plan_file.hpp"
-#include "tests/fuzz/bytes.hpp"
+#include "tests/fuzz/support/bytes.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace striker;

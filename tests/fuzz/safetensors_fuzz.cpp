@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "tests/fuzz/bytes.hpp"
+#include "tests/fuzz/support/bytes.hpp"
 #include "training/export/firmware_limits.hpp"
 #include "training/model/model.hpp"
 #include "training/run/model_task.hpp"

@@ -2,7 +2,7 @@
 // Letters of a serial line: only whole, valid lines become frames, and those come back as they are written.
 #include "firmware/ports/bare_metal/slcan.hpp"
 
-#include "tests/fuzz/bytes.hpp"
+#include "tests/fuzz/support/bytes.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace striker;

@@ -9,7 +9,7 @@
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/bus.hpp"
 #include "firmware/loop/tick_loop.hpp"
-#include "tests/fuzz/any_frame.hpp"
+#include "tests/fuzz/support/any_frame.hpp"
 
 namespace striker::fuzz {
 namespace {

@@ -18,7 +18,7 @@
 #include "firmware/policy/network.hpp"
 #include "firmware/policy/proof.hpp"
 #include "tests/images/console.hpp"
-#include "tests/images/frame_queue.hpp"
+#include "firmware/loop/frame_queue.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/policy/synthetic_policy.hpp"
 
@@ -114,9 +114,9 @@ void hash_frame(proof::Fnv1a& hash, const can::Frame& frame) {
 
 // Ticks and decisions, the answers' hash, and the first tick whose answer differed.
 void replay(images::Recording& recording) {
-  images::FrameQueue bus;
+  loop::FrameQueue bus;
   loop::SyncTicks sync;
-  loop::TickLoop<loop::BuiltInNode, images::FrameQueue&, loop::SyncTicks&> loop(loop::built_in_robot, bus,
+  loop::TickLoop<loop::BuiltInNode, loop::FrameQueue&, loop::SyncTicks&> loop(loop::built_in_robot, bus,
                                                                                 sync);
   proof::Fnv1a hash;
   images::RecordedFrame recorded;

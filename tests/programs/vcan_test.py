@@ -6,8 +6,6 @@ Usage: vcan_test.py BIN_DIRECTORY [Vcan.test_NAME...]"""
 import os
 import re
 import signal
-import socket
-import struct
 import subprocess
 import sys
 import time
@@ -17,11 +15,12 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(
 
 import files_case  # noqa: E402
 import striker_dbc  # noqa: E402
+from vcan_bus import collect, listening, read_log, send, wait_until_still  # noqa: E402
 
 BIN = sys.argv.pop(1)
 
-FAULT_REPORT, MODE_COMMAND, WHEEL_COMMAND, WHEEL_STATE, STATUS = (
-    striker_dbc.identifier(name) for name in ("FaultReport", "ModeCommand", "WheelCommand", "WheelState", "Status"))
+FAULT_REPORT, MODE_COMMAND, WHEEL_COMMAND, WHEEL_STATE, STATUS, SYNC = (
+    striker_dbc.identifier(name) for name in ("FaultReport", "ModeCommand", "WheelCommand", "WheelState", "Status", "Sync"))
 STANDBY, ACTIVE = (striker_dbc.value("Status", "state", name) for name in ("standby", "active"))
 SYNC_LOST = striker_dbc.value("FaultReport", "code", "sync_lost")
 ERROR_FLAG, ERROR_BUS_OFF = 0x20000000, 0x40  # linux/can.h, linux/can/error.h
@@ -48,16 +47,6 @@ def stop(process):
     return process.communicate(timeout=20)
 
 
-def read_log(file):
-    """[(stamp in ms, identifier, payload)] of a candump -L log."""
-    frames = []
-    with open(file, encoding="ascii") as log:
-        for line in log:
-            match = re.fullmatch(r"\((\d{10})\.(\d{6})\) vcan0 ([0-9A-F]{3})#([0-9A-F]*)", line.strip())
-            frames.append((int(match[1]) * 1000 + int(match[2]) // 1000, int(match[3], 16), bytes.fromhex(match[4])))
-    return frames
-
-
 def moves(payload):
     """Does a wheel command carry torque or a set-point?"""
     return any(payload[2:])
@@ -65,6 +54,16 @@ def moves(payload):
 
 class Vcan(files_case.FilesCase):
     maxDiff = 2000
+
+    def tearDown(self):
+        """Whatever was recorded arms no controller whose challenges are others."""
+        for name in os.listdir(self.directory.name):
+            with open(self.file(name), encoding="utf-8", errors="replace") as stream:
+                is_of_a_lockstep_run = name.endswith(".log") and f" {SYNC:03X}#" in stream.read()
+            if is_of_a_lockstep_run:
+                replayed = run("striker-firmware", "--replay", self.file(name), "--challenge-seed", "99")
+                self.assertIn(replayed.returncode, (0, 1), replayed.stderr)
+                self.assertIn("torque in 0 ticks", replayed.stdout)
 
     def kick(self, log, *arguments):
         result = run("striker-sil", "kick", "--episodes", "2", "--seed", "7", "--log", self.file(log), *arguments)
@@ -224,6 +223,42 @@ class Vcan(files_case.FilesCase):
             if identifier == WHEEL_COMMAND and moves(payload):
                 self.assertIn(state, (STANDBY, ACTIVE), f"moved in fault at {stamp} ms: {told}")
 
+    def test_a_recorded_run_is_repeated_on_the_bus(self):
+        self.kick("a.log")
+        process = firmware()
+        try:
+            replayed = run("striker-sil", "replay", self.file("a.log"), "--bus", "can:vcan0")
+        finally:
+            stop(process)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+        self.assertIn("4601 ticks: the answers of 4601 are the recorded ones, 0 differ", replayed.stdout)
+
+    def test_a_recorded_run_on_the_wall_clock_arms_no_other_controller(self):
+        process = firmware("realtime")
+        try:
+            self.kick("a.log", "--bus", "can:vcan0", "--realtime")
+        finally:
+            stop(process)
+        recorded = read_log(self.file("a.log"))
+        self.assertTrue(any(identifier == WHEEL_COMMAND and moves(payload) for _, identifier, payload in recorded))
+        with open(self.file("world.log"), "w", encoding="ascii") as stream:
+            for stamp, identifier, payload in recorded:
+                if identifier not in striker_dbc.sent_by("Controller"):
+                    stream.write(f"({stamp // 1000:010}.{stamp % 1000 * 1000:06}) vcan0 {identifier:03X}#{payload.hex()}\n")
+        process = program("striker-firmware", "--can", "vcan0", "--clock", "realtime")
+        process.stdout.readline()
+        try:
+            with listening() as bus:
+                player = subprocess.Popen(["canplayer", "-I", self.file("world.log")])
+                frames = collect(bus, 6)
+                player.wait(timeout=60)
+        finally:
+            stop(process)
+        self.assertTrue(any(identifier == MODE_COMMAND for identifier, _ in frames), "the operator was played too")
+        states = {payload[1] >> 4 for identifier, payload in frames if identifier == STATUS}
+        self.assertIn(STANDBY, states)
+        self.assertNotIn(ACTIVE, states)
+
     # As with a controller that recovers by itself: the next frame on the bus is right behind the error.
     def test_a_bus_off_that_is_soon_over_is_a_fault(self):
         for _ in range(5):
@@ -272,36 +307,6 @@ class Vcan(files_case.FilesCase):
             self.assertEqual(result.returncode, 2)
             self.assertIn("'vcan9': no such interface", result.stderr)
             self.assertEqual(result.stderr.count("\n"), 1)
-
-
-def wait_until_still(file):
-    size = -1
-    while size != os.path.getsize(file):
-        size = os.path.getsize(file)
-        time.sleep(0.5)
-
-
-def listening():
-    bus = socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
-    bus.bind(("vcan0",))
-    bus.settimeout(0.05)
-    return bus
-
-
-def send(bus, identifier, payload):
-    bus.send(struct.pack("=IB3x8s", identifier, len(payload), payload.ljust(8, b"\0")))
-
-
-def collect(bus, seconds):
-    frames = []
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        try:
-            identifier, length, data = struct.unpack("=IB3x8s", bus.recv(16))
-            frames.append((identifier, data[:length]))
-        except TimeoutError:
-            pass
-    return frames
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "firmware/host/can_socket.hpp"
+#include "firmware/host/can/can_socket.hpp"
 #include "firmware/host/periodic_clock.hpp"
 #include "firmware/loop/bus.hpp"
 #include "firmware/ports/linux/frame_batch.hpp"

@@ -10,7 +10,7 @@
 #include <array>
 #include <string>
 
-#include "firmware/host/can_socket.hpp"
+#include "firmware/host/can/can_socket.hpp"
 #include "firmware/loop/bus.hpp"
 #include "firmware/ports/linux/frame_batch.hpp"
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "firmware/host/can_socket.hpp"
+#include "firmware/host/can/can_socket.hpp"
 
 namespace striker::linux_port {
 

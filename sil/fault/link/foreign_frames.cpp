@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "firmware/host/can_socket.hpp"
+#include "firmware/host/can/can_socket.hpp"
 #include "sil/fault/link/injected_frames.hpp"
 
 namespace striker::sil {

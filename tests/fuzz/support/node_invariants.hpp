@@ -10,7 +10,7 @@
 #include "firmware/core/supervision/consent.hpp"
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/gated_node.hpp"
-#include "tests/fuzz/any_frame.hpp"
+#include "tests/fuzz/support/any_frame.hpp"
 
 namespace striker::fuzz {
 

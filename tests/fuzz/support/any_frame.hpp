@@ -4,7 +4,7 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/messages.hpp"
-#include "tests/fuzz/bytes.hpp"
+#include "tests/fuzz/support/bytes.hpp"
 
 namespace striker::fuzz {
 

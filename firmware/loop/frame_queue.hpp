@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bus in memory: one frame in at a time, and what the last step sent.
+// A bus in memory, of fixed size: one frame in at a time, and what the last step sent. For runs that are repeated.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include "firmware/can/frame_list.hpp"
 #include "firmware/loop/bus.hpp"
 
-namespace striker::images {
+namespace striker::loop {
 
 class FrameQueue {
  public:
@@ -20,7 +20,7 @@ class FrameQueue {
   [[nodiscard]] std::span<const can::Frame> sent() const { return sent_.frames(); }
 
   void poll() {}
-  loop::Received<std::int64_t> receive(std::size_t) {
+  Received<std::int64_t> receive(std::size_t) {
     const std::size_t count = waits_ ? 1 : 0;
     waits_ = false;
     return {.frames = std::span(&frame_, count)};
@@ -41,6 +41,6 @@ class FrameQueue {
   can::FrameList sent_;
 };
 
-static_assert(loop::Bus<FrameQueue, std::int64_t>);
+static_assert(Bus<FrameQueue, std::int64_t>);
 
-}  // namespace striker::images
+}  // namespace striker::loop

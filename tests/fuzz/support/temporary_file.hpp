@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/fuzz/bytes.hpp"
+#include "tests/fuzz/support/bytes.hpp"
 
 namespace striker::fuzz {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/host/can_socket.hpp"
+#include "firmware/host/can/can_socket.hpp"
 
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
