@@ -143,6 +143,22 @@ TEST(Codec, AMessageWithOneSignalOutOfRangeIsIgnoredWhole) {
   EXPECT_EQ(command.mode, 1);
 }
 
+TEST(Codec, BothEndsOfARangeAreAcceptedAndNothingBeyond) {
+  for (const std::int32_t speed_mm_s : {-8'001, -8'000, 8'000, 8'001}) {
+    for (const std::size_t first_byte : {2U, 4U}) {  // the left speed, the right one
+      SendCounter counter;
+      Frame frame = send(WheelState{}, counter);
+      frame.data[first_byte] = static_cast<std::uint8_t>(speed_mm_s);
+      frame.data[first_byte + 1] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(speed_mm_s) >> 8U);
+      protect(frame, layout<WheelState>.info.data_ids, 1);
+      WheelState state;
+      EXPECT_EQ(receive(frame, state),
+                speed_mm_s < -8'000 || speed_mm_s > 8'000 ? Verdict::out_of_range : Verdict::accepted)
+          << speed_mm_s;
+    }
+  }
+}
+
 TEST(Codec, AllThatCanMoveTheRobotIsProtected) {
   EXPECT_TRUE(is_protected<EmergencyStop>() && is_protected<Sync>() && is_protected<ModeCommand>() &&
               is_protected<WheelCommand>() && is_protected<WheelState>() && is_protected<VisionPose>() &&

@@ -42,6 +42,40 @@ TEST(CommandCheck, WhatPassesHasACauseAndKeepsTheLimits) {
   EXPECT_GT(passed, 10'000);
 }
 
+// Whatever one of the four figures is not zero moves: it needs its cause.
+TEST(CommandCheck, EachFigureAloneNeedsACause) {
+  const DriveFacts all{true, true, true, {}};
+  for (const DriveCommand& c : {DriveCommand{{1, 0}, {}}, DriveCommand{{0, -1}, {}}, DriveCommand{{}, {1, 0}},
+                                DriveCommand{{}, {0, -1}}}) {
+    EXPECT_EQ(check_command(robot, c, all), Fault::none);
+    for (const DriveFacts& facts : {DriveFacts{false, true, true, {}}, DriveFacts{true, false, true, {}},
+                                    DriveFacts{true, true, false, {}}}) {
+      EXPECT_EQ(check_command(robot, c, facts), Fault::command_rejected);
+    }
+  }
+}
+
+TEST(CommandCheck, TheLimitsThemselvesPass) {
+  const DriveFacts at_overspeed{true, true, true, {robot.overspeed_mm_s, -robot.overspeed_mm_s}};
+  const DriveCommand greatest{{robot.torque_limit_mNm, -robot.torque_limit_mNm},
+                              {robot.top_rim_speed_mm_s, -robot.top_rim_speed_mm_s}};
+  EXPECT_EQ(check_command(robot, greatest, at_overspeed), Fault::none);
+  for (const std::int32_t sign : {-1, 1}) {
+    for (const bool left : {false, true}) {
+      DriveCommand torque;
+      DriveCommand set_point;
+      DriveFacts faster{true, true, true, {}};
+      (left ? torque.torque.left_mNm : torque.torque.right_mNm) = sign * (robot.torque_limit_mNm + 1);
+      (left ? set_point.set_point.left_mm_s : set_point.set_point.right_mm_s) =
+          sign * (robot.top_rim_speed_mm_s + 1);
+      (left ? faster.measured.left_mm_s : faster.measured.right_mm_s) = sign * (robot.overspeed_mm_s + 1);
+      EXPECT_EQ(check_command(robot, torque, at_overspeed), Fault::command_rejected);
+      EXPECT_EQ(check_command(robot, set_point, at_overspeed), Fault::command_rejected);
+      EXPECT_EQ(check_command(robot, {.torque = {sign, sign}, .set_point = {}}, faster), Fault::overspeed);
+    }
+  }
+}
+
 TEST(CommandCheck, NoTorqueAndNoSetPointAlwaysPass) {
   EXPECT_EQ(check_command(robot, {}, {}), Fault::none);
 }

@@ -2,6 +2,8 @@
 // What the controller does when its inputs stop, or an operator stops it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/loop/node_rig.hpp"
 
 namespace striker::loop {
@@ -140,6 +142,22 @@ TEST(ControllerFault, APortsFaultIsInTheStepThatItConcerns) {
   rig.mode(Mode::clear);
   rig.tick();
   EXPECT_EQ(rig.state(), State::standby);
+}
+
+// However soon it comes after another one.
+TEST(ControllerFault, EveryNewFaultIsReportedInItsTick) {
+  NodeRig rig;
+  rig.arm();
+  for (const Fault fault : {Fault::overrun, Fault::bus_off, Fault::overrun}) {
+    rig.port_faults = core::set_of(fault);
+    rig.tick();
+    EXPECT_TRUE(std::any_of(rig.frames().begin(), rig.frames().end(), can::is<can::FaultReport>));
+    rig.port_faults = 0;
+    rig.run(10);
+    rig.mode(Mode::clear);
+    rig.tick();
+    ASSERT_EQ(rig.state(), State::standby);
+  }
 }
 
 // A port's stop is a disarm in every respect: nothing from before it counts for the next arming.

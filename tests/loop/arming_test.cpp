@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What arming begins, on the wire: nothing of an earlier run is left, and nothing moves before a decision.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "tests/loop/node_rig.hpp"
+
+namespace striker::loop {
+namespace {
+
+using can::Mode;
+
+TEST(Arming, MovesNothingBeforeTheFirstDecisionAlsoWhereTheWheelsRoll) {
+  NodeRig rig;
+  rig.wheels.left_mm_s = 500;
+  rig.wheels.right_mm_s = 500;
+  rig.run(160);
+  rig.mode(Mode::arm);
+  rig.tick();
+  ASSERT_EQ(rig.state(), core::State::active);
+  int waited = 0;
+  while (!rig.decision && waited < 50) {
+    ASSERT_FALSE(rig.torque()) << waited;
+    rig.tick();
+    ++waited;
+  }
+  EXPECT_GT(waited, 20);
+  EXPECT_TRUE(rig.torque());
+}
+
+// The bench's world comes back every 8 s.
+TEST(Arming, EveryTimeBeginsAnew) {
+  NodeRig rig;
+  std::array<std::vector<can::WheelCommand>, 2> commands;
+  for (auto& run : commands) {
+    while (rig.now() % 8000 != 160) {
+      rig.tick();
+    }
+    rig.mode(Mode::arm);
+    for (int tick = 0; tick < 333; ++tick) {
+      rig.tick();
+      run.push_back(rig.command);
+    }
+    ASSERT_EQ(rig.state(), core::State::active);
+    rig.mode(Mode::disarm);
+    rig.tick();
+    ASSERT_FALSE(rig.torque());
+  }
+  for (std::size_t tick = 0; tick < commands[0].size(); ++tick) {
+    const can::WheelCommand& one = commands[0][tick];
+    const can::WheelCommand& other = commands[1][tick];
+    ASSERT_EQ(one.left_torque_mNm, other.left_torque_mNm) << tick;
+    ASSERT_EQ(one.right_torque_mNm, other.right_torque_mNm) << tick;
+    ASSERT_EQ(one.left_set_point_2mm_s, other.left_set_point_2mm_s) << tick;
+    ASSERT_EQ(one.right_set_point_2mm_s, other.right_set_point_2mm_s) << tick;
+  }
+}
+
+}  // namespace
+}  // namespace striker::loop
