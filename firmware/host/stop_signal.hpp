@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clean stop on SIGINT or SIGTERM: the signal sets a flag, and ends blocking calls with EINTR.
+// A clean stop on SIGINT, SIGTERM or SIGHUP: the signal sets a flag, and ends blocking calls with EINTR. A hang-up that
+// was ignored before, as nohup does, stays ignored.
 #pragma once
 
 namespace striker::host {

@@ -56,8 +56,9 @@ void define_bus(CLI::App& app, Options& options) {
   bus->add_option("--can", options.can, "CAN interface, for example vcan0");
   bus->add_flag("--in-process", options.in_process,
                 "no CAN: a bench in this process plays drives, vision and operator; realtime only");
-  bus->add_option("--replay", options.replay,
-                  "no CAN: a candump log of a run in lockstep; its answers are compared, bit by bit");
+  host::reads_file(
+      bus->add_option("--replay", options.replay,
+                      "no CAN: a candump log of a run in lockstep; its answers are compared, bit by bit"));
   bus->require_option(1);
   app.add_option("--interface", options.interface, "replay: of the log, where it has more than one");
   app.add_option("--clock", options.clock, "what ticks the controller")
@@ -109,7 +110,7 @@ void define_real_time(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--ticks", options.loop.ticks, "realtime: stop after this many; 0: at a signal")
       ->capture_default_str();
-  app.add_option("--json", options.json, "realtime: write the timing report at the end");
+  host::writes_file(app.add_option("--json", options.json, "realtime: write the timing report at the end"));
 }
 
 RealTimeSettings settings_of(const Options& options) {

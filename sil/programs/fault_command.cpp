@@ -110,8 +110,8 @@ bool tell_violation(const FaultReport& report) {
 }  // namespace
 
 void define(CLI::App& faults, FaultOptions& options) {
-  auto* const plan =
-      faults.add_option("--plan", options.plan, "a TOML file with the faults (sil/fault/README.md)");
+  auto* const plan = host::reads_file(
+      faults.add_option("--plan", options.plan, "a TOML file with the faults (sil/fault/README.md)"));
   faults.add_flag("--all", options.all, "the built-in faults, every kind of them; so without --plan")
       ->excludes(plan);
   faults.add_option("--plant", options.plant, "where the plan names none")
@@ -131,7 +131,8 @@ void define(CLI::App& faults, FaultOptions& options) {
   faults.add_option("--jobs", options.jobs, "processes; the results are the same")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  faults.add_option("--json", options.json, "write the table, with every episode and violation");
+  host::writes_file(
+      faults.add_option("--json", options.json, "write the table, with every episode and violation"));
 }
 
 int play_faults(const FaultOptions& options) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "firmware/host/command_line.hpp"
 #include "sil/bus/bit_rate.hpp"
 #include "sil/robot/plant.hpp"
 
@@ -62,10 +63,10 @@ void define_clock(CLI::App& kick, KickOptions& options) {
 }
 
 void define_files(CLI::App& kick, KickOptions& options) {
-  kick.add_option("--json", options.json, "write the summary and every episode");
-  kick.add_option("--log", options.log, "write the bus as a candump log (candump -L)");
-  kick.add_option("--decisions", options.decisions,
-                  "write the controller's state at each decision as CSV (inproc)");
+  host::writes_file(kick.add_option("--json", options.json, "write the summary and every episode"));
+  host::writes_file(kick.add_option("--log", options.log, "write the bus as a candump log (candump -L)"));
+  host::writes_file(kick.add_option("--decisions", options.decisions,
+                                    "write the controller's state at each decision as CSV (inproc)"));
 }
 
 }  // namespace
@@ -77,6 +78,10 @@ std::string bus_problem(const std::string& bus) {
 }
 
 void define(CLI::App& kick, KickOptions& options) {
+  kick.footer(
+      "Exit status: 0 all episodes were played with a controller; 2 wrong use, or no controller; 3 some were not driven "
+      "all along, and are marked; 4 an emergency stop ended the run; 5 the bus or a file failed; 130 interrupted. What "
+      "was finished is kept: in the files, or, after a kill, in LOG.part and JSON.episodes.jsonl.");
   kick.add_option("--bus", options.bus, "inproc: the controller in this process; can:IFACE: over SocketCAN")
       ->check(bus_problem)
       ->capture_default_str();

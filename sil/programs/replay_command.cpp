@@ -32,7 +32,8 @@ std::unique_ptr<ControllerLink> link_of(const ReplayOptions& options) {
 }  // namespace
 
 void define(CLI::App& replay, ReplayOptions& options) {
-  replay.add_option("log", options.log, "a candump log of a run in lockstep, as 'kick --log' writes it")
+  host::reads_file(
+      replay.add_option("log", options.log, "a candump log of a run in lockstep, as 'kick --log' writes it"))
       ->required();
   replay.add_option("--interface", options.interface, "of the log, where it has more than one");
   replay

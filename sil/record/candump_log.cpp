@@ -14,6 +14,7 @@ void CandumpLog::end_tick(const Snapshot& snapshot) {
       write(robot, stamped);
     }
   }
+  file_.flush();
 }
 
 void CandumpLog::write(std::size_t robot, const StampedFrame& stamped) {

@@ -13,10 +13,11 @@
 
 namespace striker::sil {
 
-// Written to a temporary file, renamed at the end of the run. Throws std::runtime_error that names the file.
+// Written as FILE.part, renamed at the end of the run. Each tick's lines are handed to the kernel at once: a run that
+// is killed leaves all of them in FILE.part. Throws std::runtime_error that names the file.
 class CandumpLog final : public Observer {
  public:
-  explicit CandumpLog(const std::filesystem::path& file) : file_(file) {}
+  explicit CandumpLog(const std::filesystem::path& file) : file_(file, host::Unfinished::kept) {}
 
   void end_tick(const Snapshot& snapshot) override;
   void end_run() override { file_.finish(); }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/scenario/kick_scenario.hpp"
 
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+
 #include "firmware/core/tick.hpp"
 
 namespace striker::sil {
@@ -19,6 +23,24 @@ KickScenario::KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer*
 }
 
 void KickScenario::run(const std::function<bool()>& stop) {
+  try {
+    play(stop);
+  } catch (...) {
+    for (Observer* observer : observers_) {
+      try {
+        observer->end_run();
+      } catch (const std::exception&) {
+        // Where the disk is full this file fails as well: the first fault is the one to tell.
+      }
+    }
+    throw;
+  }
+  for (Observer* observer : observers_) {
+    observer->end_run();
+  }
+}
+
+void KickScenario::play(const std::function<bool()>& stop) {
   bool running = boot(stop);
   for (std::uint64_t i = 0; running && i < plan_.episodes; ++i) {
     running = play_episode(plan_.first_episode + i, stop);
@@ -27,9 +49,6 @@ void KickScenario::run(const std::function<bool()>& stop) {
   snapshot_.deciding = false;
   seat_->queue(operator_.order(can::Mode::disarm));
   run_tick();
-  for (Observer* observer : observers_) {
-    observer->end_run();
-  }
 }
 
 // Returns false if it was stopped.
@@ -43,6 +62,11 @@ bool KickScenario::boot(const std::function<bool()>& stop) {
       return false;
     }
   }
+  if (!operator_.has_heard()) {
+    throw std::runtime_error(
+        "no controller said anything: start it on the same interface, with the same clock ('striker-firmware --can "
+        "IFACE --clock realtime' for --realtime), or use --bus inproc");
+  }
   return true;
 }
 
@@ -51,6 +75,8 @@ bool KickScenario::play_episode(std::uint64_t episode, const std::function<bool(
   const KickStart start = draw_kick(plan_.seed, episode, plan_.pose);
   snapshot_.episode = episode;
   moving_ = false;
+  undecided_ticks_ = 0;
+  longest_undecided_ticks_ = 0;
   seat_->reset();
   for (std::uint32_t episode_tick = 0; episode_tick < kick_episode_ticks; ++episode_tick) {
     place(episode_tick, start);
@@ -66,6 +92,9 @@ bool KickScenario::play_episode(std::uint64_t episode, const std::function<bool(
     }
   }
   outcomes_.push_back(episode_.outcome());
+  if (longest_undecided_ticks_ > 3 * core::decision_period_ticks) {
+    undriven_.push_back(episode);
+  }
   for (Observer* observer : observers_) {
     observer->end_episode();
   }
@@ -110,11 +139,19 @@ void KickScenario::run_tick() {
   seat_->begin_tick(tick_);
   seat_->end_tick(tick_);
   operator_.hear(seat_->answer());
+  watch_decisions();
   if (moving_ && tick_ % seat_->ticks_per_step() == 0) {
     move_world();
   }
   show();
   ++tick_;
+}
+
+void KickScenario::watch_decisions() {
+  const bool decided = operator_.decisions() != decisions_;
+  decisions_ = operator_.decisions();
+  undecided_ticks_ = decided || !snapshot_.deciding ? 0 : undecided_ticks_ + 1;
+  longest_undecided_ticks_ = std::max(longest_undecided_ticks_, undecided_ticks_);
 }
 
 void KickScenario::move_world() {

@@ -44,10 +44,14 @@ class KickScenario {
   KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer* const> observers);
 
   // All episodes, or those that were completed before `stop`, which is asked after every tick; leaves the
-  // controller disarmed.
+  // controller disarmed. Throws std::runtime_error where the bus fails, or no controller said anything until the end
+  // of the boot; the observers' files are completed all the same.
   void run(const std::function<bool()>& stop);
 
   [[nodiscard]] const std::vector<KickOutcome>& outcomes() const { return outcomes_; }
+  // The numbers of the completed episodes that no controller drove all along: somewhere between the first decision
+  // and the last none came for three periods, as nobody was there, or armed.
+  [[nodiscard]] const std::vector<std::uint64_t>& undriven() const { return undriven_; }
   [[nodiscard]] double simulated_s() const { return tick_ * tick_s; }
   [[nodiscard]] const std::string& policy() const { return operator_.policy(); }
 
@@ -55,11 +59,13 @@ class KickScenario {
   [[nodiscard]] bool ended_by_emergency_stop() const { return operator_.controller_is_stopped(); }
 
  private:
+  void play(const std::function<bool()>& stop);
   bool boot(const std::function<bool()>& stop);
   bool play_episode(std::uint64_t episode, const std::function<bool()>& stop);
   void place(std::uint32_t episode_tick, const KickStart& start);
   void give_orders(std::uint32_t episode_tick);
   void run_tick();
+  void watch_decisions();
   void move_world();
   void look();
   void show();
@@ -76,6 +82,10 @@ class KickScenario {
   RobotSnapshot robot_;
   Snapshot snapshot_;
   std::vector<KickOutcome> outcomes_;
+  std::vector<std::uint64_t> undriven_;
+  std::uint64_t decisions_ = 0;  // of the controller, so far
+  std::uint32_t undecided_ticks_ = 0;
+  std::uint32_t longest_undecided_ticks_ = 0;  // of the episode
 };
 
 }  // namespace striker::sil

@@ -43,6 +43,8 @@ void Operator::hear(std::span<const can::Frame> frames) {
     can::Safety safety;
     can::Version version;
     can::Challenge challenge;
+    has_heard_ = true;
+    decisions_ += can::is<can::Decision>(frame) ? 1 : 0;
     if (can::is<can::Status>(frame) && can::receive(frame, status) == can::Verdict::accepted) {
       fault_ = static_cast<core::Fault>(status.fault);
     } else if (can::is<can::Safety>(frame) && can::receive(frame, safety) == can::Verdict::accepted) {

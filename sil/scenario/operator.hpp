@@ -3,6 +3,7 @@
 // says of itself. Nobody but a person clears an emergency stop: this operator does not.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,10 @@ class Operator {
   // The answer to the controller's challenge, once, if it was for what this operator had asked for.
   [[nodiscard]] std::optional<can::Frame> confirmation();
 
+  // Whether the controller has said anything yet, and how often it has decided.
+  [[nodiscard]] bool has_heard() const { return has_heard_; }
+  [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
+
   // By its last status and safety report.
   [[nodiscard]] core::Fault controller_fault() const { return fault_; }
   [[nodiscard]] bool controller_is_stopped() const;
@@ -32,6 +37,8 @@ class Operator {
   void take(const can::Challenge& challenge);
 
   can::SendCounter mode_counter_;
+  bool has_heard_ = false;
+  std::uint64_t decisions_ = 0;
   std::optional<can::Mode> asked_;
   std::int32_t challenge_ = 0;  // to be confirmed; 0: none
   core::Fault fault_ = core::Fault::none;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -15,12 +16,22 @@
 namespace striker::sil {
 namespace {
 
-nlohmann::ordered_json row_json(std::uint64_t episode, const KickOutcome& outcome) {
-  nlohmann::ordered_json row = {{"episode", episode},          {"contact", outcome.contact},
-                                {"contact_decision", nullptr}, {"theta_contact_rad", nullptr},
-                                {"v_contact_m_s", nullptr},    {"front_face", nullptr},
-                                {"reward", outcome.reward},    {"ball_speed_m_s", nullptr},
-                                {"ball_angle_rad", nullptr},   {"kicked", outcome.kicked}};
+bool was_driven(const KickRun& run, std::uint64_t episode) {
+  return std::find(run.undriven.begin(), run.undriven.end(), episode) == run.undriven.end();
+}
+
+nlohmann::ordered_json row_json(std::uint64_t episode, const KickOutcome& outcome, bool driven) {
+  nlohmann::ordered_json row = {{"episode", episode},
+                                {"contact", outcome.contact},
+                                {"contact_decision", nullptr},
+                                {"theta_contact_rad", nullptr},
+                                {"v_contact_m_s", nullptr},
+                                {"front_face", nullptr},
+                                {"reward", outcome.reward},
+                                {"ball_speed_m_s", nullptr},
+                                {"ball_angle_rad", nullptr},
+                                {"kicked", outcome.kicked},
+                                {"driven", driven}};
   if (outcome.contact) {
     row["contact_decision"] = outcome.contact_decision;
     row["theta_contact_rad"] = outcome.theta_contact_rad;
@@ -42,7 +53,8 @@ nlohmann::ordered_json run_json(const KickRun& run) {
   const KickSummary summary = kick_summary(run.episodes);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < run.episodes.size(); ++i) {
-    rows.push_back(row_json(run.first_episode + i, run.episodes[i]));
+    const std::uint64_t episode = run.first_episode + i;
+    rows.push_back(row_json(episode, run.episodes[i], was_driven(run, episode)));
   }
   nlohmann::ordered_json report = {{"episodes", run.episodes.size()},
                                    {"mean_reward", summary.mean_reward},
@@ -53,6 +65,7 @@ nlohmann::ordered_json run_json(const KickRun& run) {
                                    {"plant", run.plant},
                                    {"pose", run.pose},
                                    {"policy", run.policy},
+                                   {"undriven_episodes", run.undriven},
                                    {"simulated_s", run.simulated_s},
                                    {"wall_s", run.wall_s},
                                    {"realtime_factor", realtime_factor(run)},
@@ -65,14 +78,15 @@ std::string cell(bool known, double value, int decimals) {
   return known ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
-std::string row_text(std::uint64_t episode, const KickOutcome& outcome) {
+std::string row_text(std::uint64_t episode, const KickOutcome& outcome, bool driven) {
   constexpr double degrees = 180.0 / std::numbers::pi;
-  return fmt::format(
-      "{:>7}  {:>7}  {:>9}  {:>9}  {:>8.3f}  {:>10}  {:>10}  {:>6}\n", episode,
-      outcome.contact ? "yes" : "no", cell(outcome.contact, outcome.theta_contact_rad * degrees, 1),
-      cell(outcome.contact, outcome.v_contact_m_s, 3), outcome.reward,
-      cell(outcome.ball_measured, outcome.ball_speed_m_s, 3),
-      cell(outcome.ball_measured, outcome.ball_angle_rad * degrees, 1), outcome.kicked ? "yes" : "no");
+  return fmt::format("{:>7}  {:>7}  {:>9}  {:>9}  {:>8.3f}  {:>10}  {:>10}  {:>6}{}\n", episode,
+                     outcome.contact ? "yes" : "no",
+                     cell(outcome.contact, outcome.theta_contact_rad * degrees, 1),
+                     cell(outcome.contact, outcome.v_contact_m_s, 3), outcome.reward,
+                     cell(outcome.ball_measured, outcome.ball_speed_m_s, 3),
+                     cell(outcome.ball_measured, outcome.ball_angle_rad * degrees, 1),
+                     outcome.kicked ? "yes" : "no", driven ? "" : "  not driven");
 }
 
 }  // namespace
@@ -96,6 +110,10 @@ KickSummary kick_summary(const std::vector<KickOutcome>& episodes) {
   return summary;
 }
 
+std::string row_line(std::uint64_t episode, const KickOutcome& outcome, bool driven) {
+  return row_json(episode, outcome, driven).dump() + '\n';
+}
+
 void write_json(const KickRun& run, const std::filesystem::path& file) {
   host::AtomicFile out(file);
   out.write(run_json(run).dump(1) + '\n');
@@ -108,7 +126,8 @@ std::string format_table(const KickRun& run, bool rows) {
     text += fmt::format("{:>7}  {:>7}  {:>9}  {:>9}  {:>8}  {:>10}  {:>10}  {:>6}\n", "episode", "contact",
                         "theta_deg", "v_m_s", "reward", "ball_m_s", "ball_deg", "kicked");
     for (std::size_t i = 0; i < run.episodes.size(); ++i) {
-      text += row_text(run.first_episode + i, run.episodes[i]);
+      const std::uint64_t episode = run.first_episode + i;
+      text += row_text(episode, run.episodes[i], was_driven(run, episode));
     }
   }
   const KickSummary summary = kick_summary(run.episodes);
@@ -116,6 +135,10 @@ std::string format_table(const KickRun& run, bool rows) {
       "{} episodes: mean reward {:.3f} +- {:.3f}, contact rate {:.3f}, kick rate {:.3f}, {:.1f} x real time\n",
       run.episodes.size(), summary.mean_reward, summary.reward_ci95, summary.contact_rate, summary.kick_rate,
       realtime_factor(run));
+  if (!run.undriven.empty()) {
+    text += fmt::format("{} of them were not driven all along, and are no result of a policy: episodes {}\n",
+                        run.undriven.size(), fmt::join(run.undriven, ", "));
+  }
   return text;
 }
 

@@ -20,6 +20,7 @@ struct KickRun {
   double simulated_s = 0.0;
   double wall_s = 0.0;
   std::vector<KickOutcome> episodes;
+  std::vector<std::uint64_t> undriven = {};  // numbers of those that no controller drove all along
 };
 
 struct KickSummary {
@@ -35,7 +36,10 @@ struct KickSummary {
 // std::runtime_error that names the file and the way out.
 void write_json(const KickRun& run, const std::filesystem::path& file);
 
-// The table for a terminal: a row an episode, then the means.
+// A row of it: a line of JSON, for a journal of a run that may end at any moment.
+[[nodiscard]] std::string row_line(std::uint64_t episode, const KickOutcome& outcome, bool driven);
+
+// The table for a terminal: a row an episode, then the means, and what is no result of the policy's.
 [[nodiscard]] std::string format_table(const KickRun& run, bool rows);
 
 }  // namespace striker::sil

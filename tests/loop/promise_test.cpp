@@ -249,6 +249,20 @@ TEST(Promise, TimeThatGoesBackIsAFault) {
   EXPECT_FALSE(rig.torque());
 }
 
+// Whatever the clock does meanwhile, a clear within the hold of a stop changes nothing.
+TEST(Promise, AClockThatGoesBackDoesNotShortenAStopsHold) {
+  NodeRig rig = armed();
+  rig.stop();
+  rig.tick();
+  rig.answer({.number = rig.now() - 100});
+  for (int tick = 0; tick < 45; ++tick) {  // each takes two ticks
+    rig.mode(Mode::clear);
+    rig.tick();
+    ASSERT_EQ(rig.faults() & core::set_of(Fault::emergency_stop), core::set_of(Fault::emergency_stop))
+        << tick;
+  }
+}
+
 TEST(Promise, InputsOfTheDistantPastDoNotBecomeFreshAgain) {
   NodeRig rig;
   rig.run(210);

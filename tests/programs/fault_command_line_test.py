@@ -59,7 +59,7 @@ class Faults(files_case.FilesCase):
         for arguments, words in ((["faults", "--plan", self.file("q.toml", PLAN.replace("replay", "repley"))],
                                   ["q.toml", "line 5", "case.fault.kind", "repley"]),
                                  (["faults", "--plan", "/nonexistent.toml"], ["/nonexistent.toml"]),
-                                 (["faults", "--plan", "a", "--all"], ["--all"]),
+                                 (["faults", "--plan", self.file("a.toml", PLAN), "--all"], ["--all"]),
                                  (["faults", "--plant", "steam"], ["--plant"]),
                                  (["campaign", "--runs", "3"], ["--out"]),
                                  (["campaign", "--runs", "0", "--out", "x"], ["--runs"])):

@@ -76,12 +76,16 @@ class CommandLine(files_case.FilesCase):
         self.expect_error(sil("kick", "--episodes", "1", "--json", "/nonexistent/a.json"), "/nonexistent/a.json")
         self.expect_error(sil("kick", "--episodes", "1", "--decisions", "/nonexistent/a.csv"), "/nonexistent/a.csv")
 
-    def test_a_full_disk_is_an_error_that_leaves_nothing(self):
+    def test_a_full_disk_is_an_error_that_keeps_the_lines_before(self):
         # A limit on the size of files fails like a full disk; Python ignores its signal, and so does the child.
         result = subprocess.run([os.path.join(BIN, "striker-sil"), "kick", "--episodes", "2", "--log",
                                  self.file("a.log")], capture_output=True, text=True, restore_signals=False,
                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000)))
-        self.expect_error(result, self.file("a.log"), "with room")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for word in (self.file("a.log"), "with room", "what was written before is in " + self.file("a.log.part")):
+            self.assertIn(word, result.stderr)
+        self.assertEqual(os.listdir(self.directory.name), ["a.log.part"])
+        self.assertEqual(os.path.getsize(self.file("a.log.part")), 20000)
 
     def test_no_bus_is_an_error_that_says_what_to_do(self):
         for arguments in (["striker-firmware", "--can", "nocan9"], ["striker-command", "--can", "nocan9", "status"],

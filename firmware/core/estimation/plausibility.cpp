@@ -19,11 +19,14 @@ constexpr bool beyond(const Vector& from, const Vector& to, std::int32_t limit_u
 constexpr std::int32_t slip_um = 45'000;
 constexpr std::int32_t slip_angle = 65536 / 16;
 
-// A rim gains 0.2 m/s in a tick if its wheel is free in the air; a shock on it and a step of the encoder are less.
+// A rim gains 0.2 m/s in a tick if its wheel is free in the air. One that lands, having spun up or been braked there,
+// changes by more at once; but it does not land again and again: each jump counts for 16 ticks, and two are forgiven.
 constexpr std::int32_t greatest_change_mm_s = 1'000;
+constexpr std::uint32_t jump_hold_ticks = 16;
+constexpr std::uint32_t jump_limit_ticks = 2 * jump_hold_ticks;
 
 constexpr std::uint32_t window_ticks = 16;
-constexpr std::int32_t windows_against = 2;
+constexpr std::int32_t windows_against = 3;
 
 }  // namespace
 
@@ -73,6 +76,10 @@ bool WheelPlausibility::possible(const RobotProfile& robot, std::uint32_t tick, 
   const bool jumped =
       begun_ != 0 && (magnitude(measured.left_mm_s - left_.before_mm_s) > greatest_change_mm_s * elapsed ||
                       magnitude(measured.right_mm_s - right_.before_mm_s) > greatest_change_mm_s * elapsed);
+  jump_ticks_ -= std::min(jump_ticks_, static_cast<std::uint32_t>(elapsed));
+  jump_ticks_ += jumped ? jump_hold_ticks : 0;
+  const bool jumps_on = jump_ticks_ > jump_limit_ticks;
+  jump_ticks_ = std::min(jump_ticks_, 2 * jump_limit_ticks);
   const std::int32_t greatest_mm_s = 2 * robot.top_rim_speed_mm_s;
   const bool runs_away =
       magnitude(measured.left_mm_s) > greatest_mm_s || magnitude(measured.right_mm_s) > greatest_mm_s;
@@ -88,11 +95,11 @@ bool WheelPlausibility::possible(const RobotProfile& robot, std::uint32_t tick, 
   right_.torque_sum_mNm += torque.right_mNm * elapsed;
   in_window_ += static_cast<std::uint32_t>(elapsed);
   if (in_window_ < window_ticks) {
-    return !jumped && !runs_away;
+    return !jumps_on && !runs_away;
   }
   in_window_ = 0;
   const bool left_follows = follows(robot, left_, measured.left_mm_s);
-  return follows(robot, right_, measured.right_mm_s) && left_follows && !jumped && !runs_away;
+  return follows(robot, right_, measured.right_mm_s) && left_follows && !jumps_on && !runs_away;
 }
 
 }  // namespace striker::core

@@ -54,6 +54,7 @@ class WheelPlausibility {
   std::uint32_t begun_ = 0;
   std::uint32_t tick_ = 0;
   std::uint32_t in_window_ = 0;
+  std::uint32_t jump_ticks_ = 0;  // of the last jumps, that are still held against it
 };
 
 }  // namespace striker::core

@@ -41,10 +41,7 @@ class Vigilance {
   void begin_tick(std::uint32_t tick, std::uint32_t elapsed, bool active, bool driving,
                   const Percepts& percepts) {
     vision_.expire(tick, vision_timeout_ticks);
-    stop_.expire(tick, stop_hold_ticks);
-    if (percepts.emergency_stop) {
-      stop_.feed(tick);
-    }
+    stop_ticks_ = percepts.emergency_stop ? 1 + stop_hold_ticks : rest(stop_ticks_, elapsed);
     if (percepts.wheels) {
       wheels_.feed(tick - percepts.wheels_age_ticks);
     }
@@ -76,7 +73,7 @@ class Vigilance {
 
   [[nodiscard]] bool vision_is_fresh() const { return vision_.ever(); }
   [[nodiscard]] bool wheels_are_fresh() const { return wheels_.ever(); }
-  [[nodiscard]] bool stop_is_pressed() const { return stop_.ever(); }
+  [[nodiscard]] bool stop_is_pressed() const { return stop_ticks_ != 0; }
 
   [[nodiscard]] Faults causes(bool active) const {
     Faults causes = set_if(!wheels_.ever() && wheels_were_invalid_ != 0, Fault::wheel_state_invalid) |
@@ -113,13 +110,13 @@ class Vigilance {
 
   Freshness vision_;  // complete pictures
   Freshness wheels_;
-  Freshness stop_;
   Faults events_ = 0;                      // of this tick
   std::uint32_t wheels_were_invalid_ = 0;  // since the last one that was taken
   std::uint32_t vision_was_invalid_ = 0;
   std::uint32_t vision_was_implausible_ = 0;
   std::uint32_t mismatches_ = 0;  // in a row
   std::uint32_t operator_errors_ = 0;
+  std::uint32_t stop_ticks_ = 0;  // of its hold that are left: a clock that goes back does not shorten it
   std::uint32_t second_controller_ticks_ = 0;
   std::uint32_t armed_ticks_ = 0;
   std::uint32_t cut_ticks_ = 0;

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/programs/kick_command.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/stop_signal.hpp"
+#include "sil/bus/bit_rate.hpp"
+#include "sil/bus/in_process_link.hpp"
+#include "sil/bus/socketcan_link.hpp"
+#include "sil/bus/timed_link.hpp"
+#include "sil/record/candump_log.hpp"
+#include "sil/record/decision_csv.hpp"
+#include "sil/record/episode_journal.hpp"
+#include "sil/record/episode_progress.hpp"
+#include "sil/record/pacer.hpp"
+#include "sil/robot/striker_drives.hpp"
+#include "sil/scenario/kick_scenario.hpp"
+#include "sil/task/kick_report.hpp"
+
+namespace striker::sil {
+
+namespace {
+
+// The way to the controller: in process or over a socket, and a bus in time around that if time is asked for.
+struct Bus {
+  std::unique_ptr<InProcessLink> in_process;
+  std::unique_ptr<ControllerLink> socket;
+  std::unique_ptr<TimedLink> timed;
+
+  [[nodiscard]] ControllerLink& untimed() const {
+    return in_process ? static_cast<ControllerLink&>(*in_process) : *socket;
+  }
+  [[nodiscard]] ControllerLink& link() const { return timed ? *timed : untimed(); }
+};
+
+Bus open_bus(const KickOptions& options) {
+  Bus bus;
+  const std::string interface = interface_of(options.bus);
+  if (options.in_process()) {
+    bus.in_process = std::make_unique<InProcessLink>();
+  } else if (options.real_time) {
+    bus.socket = std::make_unique<FreeRunningLink>(interface);
+  } else {
+    bus.socket = std::make_unique<LockstepLink>(
+        interface, SocketCanOptions{std::chrono::milliseconds(options.answer_timeout_ms),
+                                    std::chrono::milliseconds(options.start_timeout_ms)});
+  }
+  if (options.bitrate != 0) {
+    bus.timed = std::make_unique<TimedLink>(
+        bus.untimed(), TimedBusOptions{.bit_ns = bit_time_ns(options.bitrate),
+                                       .step_ns = std::llround(options.step_us * 1e3),
+                                       .vision_phase_ns = std::llround(options.vision_phase_us * 1e3)});
+  }
+  return bus;
+}
+
+using Observers = std::vector<std::unique_ptr<Observer>>;
+
+Observers make_observers(const KickOptions& options, const Bus& bus) {
+  Observers observers;
+  if (options.real_time) {
+    observers.push_back(std::make_unique<Pacer>());
+  }
+  if (!options.log.empty()) {
+    observers.push_back(std::make_unique<CandumpLog>(options.log));
+  }
+  if (!options.decisions.empty()) {
+    observers.push_back(
+        std::make_unique<DecisionCsv>(options.decisions, bus.in_process->controller().pilot()));
+  }
+  observers.push_back(std::make_unique<EpisodeProgress>(options.episodes));
+  return observers;
+}
+
+struct Played {
+  KickRun run;
+  bool emergency_stop = false;
+  std::string failure;  // of the bus, or of a file; empty: none
+};
+
+// Robot, link and run. The observers' files are complete when it returns.
+class KickSession {
+ public:
+  KickSession(const KickOptions& options, const Bus& bus, const std::vector<Observer*>& observers)
+      : options_(&options),
+        plant_(make_plant(plant_kind_of(options.plant).value(), 0, Role::forward)),
+        seat_({.robot = 0,
+               .plant = *plant_,
+               .drives = drives_,
+               .camera = camera_,
+               .link = bus.link(),
+               .lockstep = !options.real_time || options.in_process()}),
+        scenario_({.pose = options.pose == "anywhere" ? PoseMode::anywhere : PoseMode::origin,
+                   .seed = options.seed,
+                   .first_episode = options.first,
+                   .episodes = options.episodes},
+                  seat_, observers) {}
+
+  // The JSON line of the episode that has just ended.
+  [[nodiscard]] std::string last_row() const {
+    const std::uint64_t episode = options_->first + scenario_.outcomes().size() - 1;
+    const bool driven = scenario_.undriven().empty() || scenario_.undriven().back() != episode;
+    return row_line(episode, scenario_.outcomes().back(), driven);
+  }
+
+  Played play() {
+    Played played;
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      scenario_.run(host::stop_requested);
+    } catch (const std::runtime_error& error) {
+      if (scenario_.outcomes().empty()) {
+        throw;
+      }
+      played.failure = error.what();
+    }
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    played.run = {.seed = options_->seed,
+                  .first_episode = options_->first,
+                  .plant = options_->plant,
+                  .pose = options_->pose,
+                  .policy = scenario_.policy(),
+                  .simulated_s = scenario_.simulated_s(),
+                  .wall_s = wall.count(),
+                  .episodes = scenario_.outcomes(),
+                  .undriven = scenario_.undriven()};
+    played.emergency_stop = scenario_.ended_by_emergency_stop();
+    return played;
+  }
+
+ private:
+  const KickOptions* options_;
+  std::unique_ptr<Plant> plant_;
+  StrikerDrives drives_;
+  ExactCamera camera_{0};
+  Seat seat_;
+  KickScenario scenario_;
+};
+
+void report_bus(std::int64_t bitrate, const TimedBusReport& bus) {
+  fmt::print(
+      "bus at {} bit/s: busy {:.1f} %, {} frames replaced while they waited; picture to torque command at most "
+      "{:.3f} ms over {} decisions\n",
+      bitrate, 100.0 * bus.busy_share, bus.replaced, static_cast<double>(bus.decision_latency_max_ns) / 1e6,
+      bus.decisions);
+}
+
+// How it ended, with a line on stderr where it was not as wanted.
+int tell_ending(const KickOptions& options, const Played& played) {
+  const std::string finished =
+      fmt::format("{} of {} episodes; they are kept", played.run.episodes.size(), options.episodes);
+  if (!played.failure.empty()) {
+    fmt::print(stderr, "striker-sil: {}: ended after {}\n", played.failure, finished);
+    return exit_broken_off;
+  }
+  if (host::stop_requested()) {
+    fmt::print(stderr, "striker-sil: stopped after {}\n", finished);
+    return host::exit_interrupted;
+  }
+  if (played.emergency_stop) {
+    fmt::print(
+        stderr,
+        "striker-sil: an emergency stop ended the run after {}. Only an operator clears it: 'striker-command "
+        "--can IFACE clear'\n",
+        finished);
+    return exit_emergency_stop;
+  }
+  if (!played.run.undriven.empty()) {
+    fmt::print(stderr,
+               "striker-sil: {} of {} episodes were played without a controller that drove all along\n",
+               played.run.undriven.size(), played.run.episodes.size());
+    return exit_not_driven;
+  }
+  return 0;
+}
+
+void write_summary(const KickRun& run, const std::string& file, EpisodeJournal& journal) {
+  try {
+    write_json(run, file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(
+        fmt::format("{}; the episodes are in {}", error.what(), journal.file().string()));
+  }
+  journal.done();
+}
+
+}  // namespace
+
+int play_kicks(const KickOptions& options) {
+  require_sound(options);
+  const Bus bus = open_bus(options);
+  const Observers owned = make_observers(options, bus);
+  std::vector<Observer*> observers;
+  for (const auto& observer : owned) {
+    observers.push_back(observer.get());
+  }
+  std::unique_ptr<KickSession> session;
+  std::optional<EpisodeJournal> journal;
+  if (!options.json.empty()) {
+    journal.emplace(options.json, [&] { return session->last_row(); });
+    observers.push_back(&*journal);
+  }
+  session = std::make_unique<KickSession>(options, bus, observers);
+  const Played played = session->play();
+  fmt::print("{}", format_table(played.run, played.run.episodes.size() <= 50));
+  if (bus.timed) {
+    report_bus(options.bitrate, bus.timed->report());
+  }
+  if (journal) {
+    write_summary(played.run, options.json, *journal);
+  }
+  return tell_ending(options, played);
+}
+
+}  // namespace striker::sil
