@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
@@ -28,6 +29,25 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<in
     fmt::print(stderr, "{}: {}\n", app.get_name(), error.what());
     return exit_bad_input;
   }
+}
+
+CLI::Validator finite_range(double least, double greatest) {
+  const std::string range = fmt::format("[{:.12g} - {:.12g}]", least, greatest);
+  const auto problem = [=](const std::string& text) {
+    double value = 0.0;
+    const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+    return is_number && value >= least && value <= greatest
+               ? std::string()
+               : fmt::format("'{}' is no number from {:.12g} to {:.12g}", text, least, greatest);
+  };
+  return {problem, "FLOAT in " + range};
+}
+
+CLI::Validator not_empty() {
+  return {[](const std::string& text) {
+            return text.empty() ? std::string("is empty: name a file") : std::string();
+          },
+          "FILE"};
 }
 
 }  // namespace striker::host
