@@ -15,7 +15,8 @@ namespace striker::sil {
 
 namespace {
 
-constexpr std::uint32_t no_message = 0xC0000000;  // Vector's home for signals that are in no message
+// Vector's home for signals that are in no message; bit 31 is missing in some files.
+constexpr std::uint32_t no_message = 0x40000000;
 constexpr std::string_view no_message_name = "VECTOR__INDEPENDENT_SIG_MSG";
 constexpr std::string_view no_node = "Vector__XXX";
 
@@ -213,7 +214,7 @@ class DbcParser {
     }
     const DbcToken sender = word("a sender");
     has_message_ = true;
-    if (id == no_message && name.text == no_message_name) {
+    if ((id & ~extended_identifier_bit) == no_message && name.text == no_message_name) {
       return;
     }
     const DbcMessage message{std::string(name.text), std::string(sender.text), bytes, begun_.line};
@@ -371,7 +372,7 @@ class DbcParser {
     const auto id = object();
     const DbcValue given = value();
     expect(';');
-    if (id && is_one_of(dbc_attribute::all, name)) {
+    if (id && (*id & ~extended_identifier_bit) != no_message && is_one_of(dbc_attribute::all, name)) {
       take_value(file_.values[*id], name, given);
     }
   }

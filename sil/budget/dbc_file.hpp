@@ -38,6 +38,8 @@ inline constexpr std::array<std::string_view, 8> all = {cycle_time,      delay_t
                                                         bit_rate_switch, burst,      deadline,  awaited};
 }  // namespace dbc_attribute
 
+inline constexpr std::uint32_t extended_identifier_bit = 0x80000000;
+
 struct DbcValue {
   std::string text;
   bool is_text = false;  // in quotes
@@ -62,7 +64,7 @@ struct DbcFile {
   using Values = std::map<std::string, DbcValue, std::less<>>;
 
   std::string name;                              // for errors
-  std::map<std::uint32_t, DbcMessage> messages;  // by identifier; bit 31 says that it has 29 bits
+  std::map<std::uint32_t, DbcMessage> messages;  // by identifier, extended_identifier_bit included
   std::map<std::uint32_t, Values> values;        // of messages, by identifier: there may be no such message
   std::map<std::string, DbcDefinition, std::less<>> definitions;
   Values defaults;

@@ -24,7 +24,11 @@ namespace {
 constexpr double ns_per_ms = 1e6;
 constexpr std::size_t most_bytes = std::size_t{64} << 20U;
 
-constexpr std::uint32_t extended_bit = 0x80000000;
+// VFrameFormat by its index, where the file gives no names.
+constexpr std::array<std::string_view, 16> frame_formats = {
+    "StandardCAN",    "ExtendedCAN",   "", "J1939PG", "", "", "", "", "", "", "", "", "", "",
+    "StandardCAN_FD", "ExtendedCAN_FD"};
+
 constexpr std::uint32_t greatest_standard_id = 0x7FF;
 constexpr std::uint32_t greatest_extended_id = 0x1FFFFFFF;
 
@@ -80,7 +84,7 @@ class MessageReading {
     }
     require_identifier();
     const Traffic traffic{.period_ms = period_ms(),
-                          .distance_ms = number(dbc_attribute::delay_time),
+                          .distance_ms = distance_ms(),
                           .deadline_ms = number(dbc_attribute::deadline),
                           .burst = number(dbc_attribute::burst)};
     require_in_range(traffic);
@@ -91,7 +95,7 @@ class MessageReading {
     return BusMessage{
         .name = message_.name,
         .sender = message_.sender,
-        .id = id_ & ~extended_bit,
+        .id = id_ & ~extended_identifier_bit,
         .bytes = message_.bytes,
         .period_ns = has_burst ? first_but_zero_ns({period_ms, distance_ms, fallback_ms}) : distance_ns,
         .distance_ns = distance_ns,
@@ -192,27 +196,43 @@ class MessageReading {
 
   [[nodiscard]] double period_ms() const {
     const auto cycle = said(dbc_attribute::cycle_time);
-    const bool counts = cycle && (cycle->own || names_cycle());
-    return counts ? number_of(dbc_attribute::cycle_time, *cycle) : 0.0;
+    return cycle && (cycle->own || names_cycle()) ? number_of(dbc_attribute::cycle_time, *cycle) : 0.0;
   }
 
-  [[nodiscard]] FrameFormat format() const {
+  [[nodiscard]] double distance_ms() const {
+    const auto delay = said(dbc_attribute::delay_time);
+    return delay && (delay->own || !send_type() || names_events())
+               ? number_of(dbc_attribute::delay_time, *delay)
+               : 0.0;
+  }
+
+  // "": the file does not say.
+  [[nodiscard]] std::string named_format() const {
     const auto named = said(dbc_attribute::frame_format);
-    const bool says_fd = named && contains_any(named->text, {"fd"});
-    if (named && !says_fd && named->text != "StandardCAN" && named->text != "ExtendedCAN" &&
-        named->text != "J1939PG") {
+    if (!named) {
+      return "";
+    }
+    const auto index = number_in<std::size_t>(named->text, 10);
+    const std::string name(index && *index < frame_formats.size() ? frame_formats[*index] : named->text);
+    if (!contains_any(name, {"fd"}) && name != "StandardCAN" && name != "ExtendedCAN" && name != "J1939PG") {
       fail(named->line,
            fmt::format("VFrameFormat '{}' is unknown: give StandardCAN, ExtendedCAN, StandardCAN_FD, "
                        "ExtendedCAN_FD or J1939PG",
                        shown(named->text)));
     }
-    FrameFormat format{.extended = (id_ & extended_bit) != 0, .fd = says_fd || message_.bytes > 8};
-    if (message_.bytes < 0 || message_.bytes > 64) {
-      fail(fmt::format("a frame has 0 to 64 bytes, not {}: give the frames that carry it", message_.bytes));
-    }
-    if (format.fd && named && named->text == "J1939PG") {
+    return name;
+  }
+
+  [[nodiscard]] FrameFormat format() const {
+    const std::string named = named_format();
+    FrameFormat format{.extended = (id_ & extended_identifier_bit) != 0,
+                       .fd = contains_any(named, {"fd"}) || message_.bytes > 8};
+    if (format.fd && named == "J1939PG") {
       fail(
           "a J1939 message of more than 8 bytes goes in several frames: give those (TP.CM, TP.DT) in its place");
+    }
+    if (message_.bytes < 0 || message_.bytes > 64) {
+      fail(fmt::format("a frame has 0 to 64 bytes, not {}: give the frames that carry it", message_.bytes));
     }
     const auto switches = said(dbc_attribute::bit_rate_switch);
     format.bit_rate_switch =
@@ -224,12 +244,12 @@ class MessageReading {
   }
 
   void require_identifier() const {
-    const bool is_extended = (id_ & extended_bit) != 0;
+    const bool is_extended = (id_ & extended_identifier_bit) != 0;
     if (!is_extended && id_ > greatest_standard_id) {
       fail(fmt::format("identifier {} has more than 11 bits: one of 29 bits has bit 31 set (add 2147483648)",
                        id_));
     }
-    if (is_extended && (id_ & ~extended_bit) > greatest_extended_id) {
+    if (is_extended && (id_ & ~extended_identifier_bit) > greatest_extended_id) {
       fail(fmt::format("identifier {} has more than 29 bits below bit 31: correct it", id_));
     }
   }
@@ -266,9 +286,8 @@ class MessageReading {
 
 // A value for a message that is not there says that the file lacks one.
 void require_messages_of_values(const DbcFile& file) {
-  constexpr std::uint32_t no_message = 0xC0000000;
   for (const auto& [id, values] : file.values) {
-    if (id != no_message && !file.messages.contains(id)) {
+    if (!file.messages.contains(id)) {
       const auto& [attribute, value] = *values.begin();
       fail_dbc(file.name, value.line,
                fmt::format("{} of message {}, which is not there: give its BO_, or remove the value",

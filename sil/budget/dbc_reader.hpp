@@ -7,15 +7,15 @@
 // the period is the distance, because nothing else bounds frames on changes; without Deadline it is the period.
 // A message that is Awaited is left out, and so is VECTOR__INDEPENDENT_SIG_MSG, which is none.
 //
-// A message that does not have an attribute has the file's default (BA_DEF_DEF_). The default of GenMsgCycleTime is
-// for messages with a cycle alone: where GenMsgSendType is known, by its own value or by default, it has to name one
-// ("Cyclic", "cycle", "FixedPeriodic"), as "OnEvent" and "NoMsgSendType" do not. A message's own GenMsgCycleTime
-// counts whatever the type. If the type names events too ("CyclicAndSpontan"), and neither a distance nor a Burst
-// bounds them, `events_uncounted` says that the budget leaves them out. Values of an ENUM are its texts or their
-// index.
+// A message that does not have an attribute has the file's default (BA_DEF_DEF_). Where GenMsgSendType is known, by a
+// value or by default, the default of GenMsgCycleTime is for types that name a cycle alone ("Cyclic", "FixedPeriodic"),
+// and that of GenMsgDelayTime for types that name events alone ("OnEvent", "spontanX", "OnWrite", "OnChange",
+// "triggered"); of "CyclicAndEvent" both count, of "NoMsgSendType" neither. A message's own values count whatever its
+// type. If the type names events that neither a distance nor a Burst bounds, `events_uncounted` says that the budget
+// leaves them out. Values of an ENUM are its texts or their index.
 //
-// A frame is CAN FD if VFrameFormat says so ("StandardCAN_FD") or if it has more than 8 bytes, and then switches the
-// bit rate unless CANFD_BRS is 0. Lengths go up to what a DLC can say.
+// A frame is CAN FD if VFrameFormat says so ("StandardCAN_FD", or 14) or if it has more than 8 bytes, and then switches
+// the bit rate unless CANFD_BRS is 0. Lengths go up to what a DLC can say.
 #pragma once
 
 #include <cstdint>

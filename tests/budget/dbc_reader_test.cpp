@@ -61,6 +61,8 @@ const std::vector<Tokens> every_statement = {
     {"BO_", "2364540158", "Torque", ":", "8", "Brake"},
     {"BO_", "768", "Event", ":", "2", "Vector__XXX"},
     {"BO_", "3221225472", "VECTOR__INDEPENDENT_SIG_MSG", ":", "0", "Vector__XXX"},
+    {"BO_", "1073741824", "VECTOR__INDEPENDENT_SIG_MSG", ":", "0", "Vector__XXX"},
+    {"BA_", "\"GenMsgCycleTime\"", "BO_", "3221225472", "1", ";"},
     {"BO_", "769", "Big", ":", "48", "Motor"},
     {"BO_TX_BU_", "256", ":", "Motor", ",", "Brake", ";"},
     {"EV_", "Key", ":", "0", "[", "0", "|", "1", "]", "\"\"", "0", "1", "DUMMY_NODE_VECTOR0", "Motor", ";"},
@@ -256,6 +258,16 @@ TEST(DbcReader, TheDefaultCycleTimeIsForMessagesWithACycle) {
   EXPECT_EQ(read(two_types + "BA_DEF_DEF_ \"GenMsgSendType\" \"\";")[0].period_ns, 200'000'000);
 }
 
+TEST(DbcReader, TheDefaultDelayTimeIsForMessagesWithEvents) {
+  const std::string text = two_types + "BA_DEF_DEF_ \"GenMsgDelayTime\" 20;BA_ \"GenMsgSendType\" BO_ 1 ";
+  EXPECT_EQ(read(two_types + "BA_DEF_DEF_ \"GenMsgDelayTime\" 20;")[0].distance_ns, 20'000'000);
+  EXPECT_EQ(read(text + "1;")[0].distance_ns, 20'000'000);
+  EXPECT_EQ(read(text + "3;")[0].distance_ns, 20'000'000);
+  EXPECT_EQ(read(text + "0;")[0].distance_ns, 200'000'000);
+  EXPECT_EQ(read(text + "0;BA_ \"GenMsgDelayTime\" BO_ 1 30;")[0].distance_ns, 30'000'000);
+  EXPECT_NE(refusal(text + "2;"), "");
+}
+
 TEST(DbcReader, EventsThatNothingBoundsAreToldOf) {
   const std::string both = two_types + "BA_ \"GenMsgSendType\" BO_ 1 3;";
   EXPECT_TRUE(read(both)[0].events_uncounted);
@@ -324,6 +336,10 @@ TEST(DbcReader, FormatsComeFromIdentifierLengthAndVFrameFormat) {
             FrameFormat{.fd = true});
   EXPECT_EQ(format("BO_ 2147483649 M: 8 A BA_ \"VFrameFormat\" BO_ 2147483649 3;"),
             FrameFormat{.extended = true});
+  EXPECT_EQ(
+      read("BO_ 1 M: 8 A BA_ \"VFrameFormat\" BO_ 1 14; BA_DEF_ BO_ \"VFrameFormat\" INT 0 15;", options)[0]
+          .format,
+      (FrameFormat{.fd = true, .bit_rate_switch = true}));
   const auto wrong = [&](const std::string& text) { return refusal(definition + text, options); };
   EXPECT_NE(wrong("BO_ 2147483649 M: 9 A BA_ \"VFrameFormat\" BO_ 2147483649 3;").find("TP.DT"),
             std::string::npos);
