@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bus budget as text for a terminal and as JSON. Names are written as they are to the terminal; JSON is UTF-8, and has
-// U+FFFD for every byte of a name that is not.
+// A bus budget as text for a terminal and as JSON. A terminal gets names as they are; JSON is UTF-8, and has U+FFFD
+// for what in a name is not.
 #pragma once
 
 #include <filesystem>

@@ -213,7 +213,7 @@ class MessageReading {
       return "";
     }
     const auto index = number_in<std::size_t>(named->text, 10);
-    const std::string name(index && *index < frame_formats.size() ? frame_formats[*index] : named->text);
+    std::string name(index && *index < frame_formats.size() ? frame_formats[*index] : named->text);
     if (!contains_any(name, {"fd"}) && name != "StandardCAN" && name != "ExtendedCAN" && name != "J1939PG") {
       fail(named->line,
            fmt::format("VFrameFormat '{}' is unknown: give StandardCAN, ExtendedCAN, StandardCAN_FD, "

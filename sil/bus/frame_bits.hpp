@@ -59,10 +59,10 @@ struct FrameBits {
   std::int64_t data = 0;         // at the second, if the frame switches
 };
 
-// The most that `bytes` of data can take, intermission included. Classic with a 29-bit identifier 80 + 10 s (the same
-// with 54 stuffed bits in place of 34). CAN FD: up to FDF at most 3 stuff bits, 7 with 29 bits, because RRS, IDE and FDF break runs; from
-// BRS at most one in four bits, which is 1 + 2 s. So 32 (55) bits of arbitration, and 34 + 10 s (39 + 10 s beyond 16
-// bytes) of data.
+// The most that `bytes` of data can take, intermission included. Classic with a 29-bit identifier 80 + 10 s (the
+// same with 54 stuffed bits in place of 34). CAN FD: up to FDF at most 3 stuff bits, 7 with 29 bits, because RRS,
+// IDE and FDF break runs; from BRS at most one in four bits, which is 1 + 2 s. So 32 (55) bits of arbitration, and
+// 34 + 10 s (39 + 10 s beyond 16 bytes) of data.
 [[nodiscard]] constexpr FrameBits worst_case_frame_bits(std::int64_t bytes, const FrameFormat& format) {
   if (!format.fd) {
     return {.arbitration = worst_case_frame_bits(bytes) + (format.extended ? 25 : 0)};

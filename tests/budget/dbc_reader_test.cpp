@@ -241,14 +241,21 @@ const std::string two_types =
     "BA_DEF_ BO_ \"GenMsgCycleTime\" INT 0 65535;\n"
     "BA_DEF_DEF_ \"GenMsgCycleTime\" 200;\n";
 
+std::string own(const std::string& attribute, const std::string& value) {
+  std::string text = "BA_ \"";
+  for (const std::string& part : {attribute, std::string("\" BO_ 1 "), value, std::string(";\n")}) {
+    text += part;
+  }
+  return text;
+}
+
 TEST(DbcReader, TheDefaultCycleTimeIsForMessagesWithACycle) {
   EXPECT_EQ(read(two_types)[0].period_ns, 200'000'000);
   for (const std::string cyclic : {"0", "3", "\"Cyclic\""}) {
-    EXPECT_EQ(read(two_types + "BA_ \"GenMsgSendType\" BO_ 1 " + cyclic + ";")[0].period_ns, 200'000'000)
-        << cyclic;
+    EXPECT_EQ(read(two_types + own("GenMsgSendType", cyclic))[0].period_ns, 200'000'000) << cyclic;
   }
   for (const std::string other : {"1", "2", "4", "\"OnEvent\""}) {
-    const std::string text = two_types + "BA_ \"GenMsgSendType\" BO_ 1 " + other + ";";
+    const std::string text = two_types + own("GenMsgSendType", other);
     EXPECT_NE(refusal(text).find("line 1: message M: GenMsgSendType"), std::string::npos) << other;
     EXPECT_EQ(read(text, {.default_distance_ms = 7})[0].period_ns, 7'000'000);
     EXPECT_EQ(read(text + "BA_ \"GenMsgCycleTime\" BO_ 1 50;")[0].period_ns, 50'000'000);
@@ -319,6 +326,14 @@ TEST(DbcReader, PeriodDistanceDeadlineAndBurst) {
   EXPECT_EQ(burst[0].distance_ns, 2'000'000);
   EXPECT_EQ(burst[0].burst, 3);
   EXPECT_EQ(burst[0].deadline_ns, 4'000'000);
+}
+
+TEST(DbcReader, WhatIsNotTakenIntoAccount) {
+  const std::string text = "BO_ 1 M: 8 A\nBA_ \"GenMsgCycleTime\" BO_ 1 100;\n";
+  expect_same(read(text), read(text + "BO_TX_BU_ 1 : A,B;"), text);
+  expect_same(read(text),
+              read(text + "BA_ \"GenMsgCycleTimeFast\" BO_ 1 10;BA_ \"GenMsgNrOfRepetition\" BO_ 1 3;"),
+              text);
 }
 
 TEST(DbcReader, FormatsComeFromIdentifierLengthAndVFrameFormat) {

@@ -66,6 +66,11 @@ class BudgetCommandLine(files_case.FilesCase):
         for more in (["--errors-per-s", "10"], ["--jitter-us", "200"], ["--step-us", "90"], ["--lateness-us", "300"]):
             self.assertGreater(sum(response(*more)), sum(response()), more)
 
+    def test_errors_that_are_rare_without_end_are_one(self):
+        once = budget("--errors-per-s", "0.001").stdout.splitlines()[1:]
+        self.assertEqual(budget("--errors-per-s", "1e-300").stdout.splitlines()[1:], once)
+        self.assertNotEqual(budget().stdout.splitlines()[1:], once)
+
     def test_can_fd_has_two_bit_rates(self):
         dbc = self.file("fd.dbc", 'BO_ 1 Fd: 64 A\nBO_ 2147483649 Long: 8 A\nBO_ 2 Short: 8 A\n')
         def frames(*arguments):
