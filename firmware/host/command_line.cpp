@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
 #include <exception>
 
@@ -35,8 +34,7 @@ CLI::Validator finite_range(double least, double greatest) {
   const std::string range = fmt::format("[{:.12g} - {:.12g}]", least, greatest);
   const auto problem = [=](const std::string& text) {
     double value = 0.0;
-    const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-    return is_number && value >= least && value <= greatest
+    return CLI::detail::lexical_cast(text, value) && value >= least && value <= greatest  // NaN is neither
                ? std::string()
                : fmt::format("'{}' is no number from {:.12g} to {:.12g}", text, least, greatest);
   };

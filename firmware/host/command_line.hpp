@@ -18,8 +18,8 @@ inline constexpr int exit_interrupted = 130;
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& body,
         const std::string& built_in = "");
 
-// For an option that is a floating-point number: it is finite, and goes from `least` to `greatest`. CLI::Range lets
-// "nan" pass.
+// For an option that is a floating-point number: it goes from `least` to `greatest`, both finite, and so is no NaN,
+// which CLI::Range lets pass.
 [[nodiscard]] CLI::Validator finite_range(double least, double greatest);
 
 // For an option that names a file: it is not "".

@@ -94,14 +94,15 @@ TEST(ResponseTime, FramesOnChangesByHand) {
 
 // Of two with the same first 11 bits the shorter identifier goes first, and both before the next 11 bits.
 TEST(ResponseTime, AMessageWaitsForThoseThatWinTheArbitration) {
-  std::vector<BusMessage> messages = {periodic("Next", 2, 0, 10 * ms, ms),
-                                      periodic("Long", 1U << 18U, 0, 10 * ms, ms),
-                                      periodic("Short", 1, 0, 10 * ms, ms)};
-  messages[1].format.extended = true;
+  std::vector<BusMessage> messages = {
+      periodic("Last", 3, 8, 10 * ms, ms), periodic("Next", 2, 8, 10 * ms, ms),
+      periodic("Long", 1U << 18U, 0, 10 * ms, ms), periodic("Short", 1, 0, 10 * ms, ms)};
+  messages[2].format.extended = true;
   const auto responses = response_times(messages, {});
-  EXPECT_EQ(responses[2].response_ns, (80 + 55) * us);
-  EXPECT_EQ(responses[1].response_ns, (55 + 55 + 80) * us);
-  EXPECT_EQ(responses[0].response_ns, (55 + 80 + 55) * us);
+  EXPECT_EQ(responses[3].response_ns, (135 + 55) * us);
+  EXPECT_EQ(responses[2].response_ns, (135 + 55 + 80) * us);
+  EXPECT_EQ(responses[1].response_ns, (135 + 55 + 80 + 135) * us);
+  EXPECT_EQ(responses[0].response_ns, (55 + 80 + 135 + 135) * us);
 }
 
 TEST(ResponseTime, OnlyWhatSwitchesGoesAtTheSecondBitRate) {

@@ -175,22 +175,28 @@ TEST(FrameBits, AnFdLengthIsOneThatADlcCanSay) {
 
 // SOF, the identifier and what the standard puts between its parts, as text: the first difference decides, 0 wins.
 TEST(FrameBits, TheRankIsWhatTheArbitrationDecides) {
+  struct Identifier {
+    std::uint32_t id;
+    bool extended;
+  };
   Random random(3, 0, 0);
-  const auto field = [](std::uint32_t id, bool extended) {
-    return extended ? binary(id >> 18U, 11) + "11" + binary(id & 0x3FFFFU, 18) + "0" : binary(id, 11) + "00";
+  const auto draw = [&](std::uint32_t base) -> Identifier {
+    const bool extended = random.below(2) == 0;
+    const auto more = static_cast<std::uint32_t>(random.below(4) == 0 ? 0 : random.below(1U << 18U));
+    return {extended ? base << 18U | more : base, extended};
+  };
+  const auto field = [](const Identifier& of) {
+    return of.extended ? binary(of.id >> 18U, 11) + "11" + binary(of.id & 0x3FFFFU, 18) + "0"
+                       : binary(of.id, 11) + "00";
   };
   for (int i = 0; i < 20'000; ++i) {
-    const bool extended = random.below(2) == 0;
-    const bool other_extended = random.below(2) == 0;
     const auto base = static_cast<std::uint32_t>(random.below(2048));
-    const auto other_base = random.below(2) == 0 ? base : static_cast<std::uint32_t>(random.below(2048));
-    const auto id = extended ? base << 18U | static_cast<std::uint32_t>(random.below(1U << 18U)) : base;
-    const auto other =
-        other_extended ? other_base << 18U | static_cast<std::uint32_t>(random.below(1U << 18U)) : other_base;
-    const std::string mine = field(id, extended);
-    const std::string others = field(other, other_extended);
-    ASSERT_EQ(mine < others, arbitration_rank(id, extended) < arbitration_rank(other, other_extended))
-        << mine << " " << others;
+    const Identifier one = draw(base);
+    const Identifier other =
+        draw(random.below(2) == 0 ? base : static_cast<std::uint32_t>(random.below(2048)));
+    ASSERT_EQ(field(one) < field(other),
+              arbitration_rank(one.id, one.extended) < arbitration_rank(other.id, other.extended))
+        << field(one) << " " << field(other);
   }
 }
 
