@@ -119,4 +119,11 @@ template <class Message>
   return unpack(frame, message);
 }
 
+// A frame of this message that a receiver would accept.
+template <class Message>
+[[nodiscard]] constexpr bool is_valid(const Frame& frame) {
+  Message message;
+  return is<Message>(frame) && receive(frame, message) == Verdict::accepted;
+}
+
 }  // namespace striker::can

@@ -43,6 +43,9 @@ AtomicFile::AtomicFile(const std::filesystem::path& file, Unfinished unfinished)
   if (stream_ == nullptr) {
     fail("cannot be written");
   }
+  // What is flushed more often than this goes to the kernel in the very pieces that it was flushed in: whole lines.
+  constexpr std::size_t buffer_bytes = 1U << 16U;
+  std::setvbuf(stream_, nullptr, _IOFBF, buffer_bytes);
 }
 
 AtomicFile::~AtomicFile() {

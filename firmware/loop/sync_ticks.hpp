@@ -102,7 +102,7 @@ class SyncTicks {
       frames_[count_++] = frame;
     } else {
       ++lost_;
-      if (can::is<can::EmergencyStop>(frame)) {
+      if (can::is_valid<can::EmergencyStop>(frame)) {
         frames_.back() = frame;
       }
     }
@@ -110,7 +110,7 @@ class SyncTicks {
 
   void forget_all_but_stop() {
     const auto kept = std::span(frames_).first(count_);
-    const auto stop = std::find_if(kept.begin(), kept.end(), can::is<can::EmergencyStop>);
+    const auto stop = std::find_if(kept.begin(), kept.end(), can::is_valid<can::EmergencyStop>);
     const auto pressed = stop == kept.end() ? std::nullopt : std::optional(*stop);
     *this = {};
     if (pressed) {

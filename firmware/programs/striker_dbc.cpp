@@ -17,10 +17,6 @@ int main(int argc, char** argv) {
           }
         },
         nullptr);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      std::fputs("striker-dbc: cannot write to standard output: is the disk full?\n", stderr);
-      return 2;
-    }
     return 0;
   });
 }

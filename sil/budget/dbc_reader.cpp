@@ -4,113 +4,54 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <map>
-#include <regex>
+#include <optional>
 #include <stdexcept>
-#include <string_view>
+
+#include "sil/budget/dbc_file.hpp"
+#include "sil/budget/dbc_scanner.hpp"
 
 namespace striker::sil {
 
 namespace {
 
 constexpr double ns_per_ms = 1e6;
+constexpr std::size_t most_bytes = std::size_t{64} << 20U;
 
-// Of a message or an attribute. The library's regular expressions need stack for every letter.
-constexpr std::size_t longest_line = 4096;
+// VFrameFormat by its index, where the file gives no names.
+constexpr std::array<std::string_view, 16> frame_formats = {
+    "StandardCAN",    "ExtendedCAN",   "", "J1939PG", "", "", "", "", "", "", "", "", "", "",
+    "StandardCAN_FD", "ExtendedCAN_FD"};
 
-constexpr std::uint32_t no_message = 0xC0000000;  // Vector's home for signals that are in no message
+constexpr std::uint32_t greatest_standard_id = 0x7FF;
+constexpr std::uint32_t greatest_extended_id = 0x1FFFFFFF;
 
-struct Described {
-  std::string name;
-  std::string sender;
-  std::int64_t bytes = 0;
-  std::map<std::string, double> attributes;
-};
+bool contains_any(std::string_view text, std::initializer_list<std::string_view> words) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
 
-struct Dbc {
-  std::map<std::uint32_t, Described> messages;
-  std::map<std::string, double> defaults;
-};
-
-class DbcReader {
- public:
-  explicit DbcReader(const std::filesystem::path& file) : file_(file) {
-    std::ifstream stream(file);
-    if (!stream) {
-      throw std::runtime_error(
-          fmt::format("{}: cannot be read ({}): name a DBC file", file.string(), std::strerror(errno)));
+template <class Number>
+std::optional<Number> number_in(std::string_view text, int base) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = [&] {
+    if constexpr (std::is_integral_v<Number>) {
+      return std::from_chars(text.data(), end, value, base);
+    } else {
+      return std::from_chars(text.data(), end, value);
     }
-    for (std::string line; std::getline(stream, line); ++line_) {
-      take(line);
-    }
-    if (dbc_.messages.empty()) {
-      fail("no message (BO_) in it: name a DBC file");
-    }
-  }
-  [[nodiscard]] const Dbc& dbc() const { return dbc_; }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}: {}", file_.string(), what));
-  }
-
-  template <class Number>
-  [[nodiscard]] Number number(const std::string& text) const {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) {
-      fail(fmt::format("line {}: '{}' is no number in range", line_, text));
-    }
-    return value;
-  }
-
-  void take(const std::string& line) {
-    static const std::regex message(R"(\s*BO_\s+(\d+)\s+(\w+)\s*:\s*(\d+)\s+(\w+).*)");
-    static const std::regex attribute(R"(\s*BA_\s+"(\w+)\"\s+BO_\s+(\d+)\s+([-+.eE\d]+)\s*;.*)");
-    static const std::regex absent(R"(\s*BA_DEF_DEF_\s+"(\w+)\"\s+([-+.eE\d]+)\s*;.*)");
-    const std::string_view text =
-        std::string_view(line).substr(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (!text.starts_with("BO_") && !text.starts_with("BA_")) {
-      return;
-    }
-    if (line.size() > longest_line) {
-      fail(fmt::format("line {}: longer than {} letters", line_, longest_line));
-    }
-    std::smatch part;
-    if (std::regex_match(line, part, message)) {
-      const auto id = number<std::uint32_t>(part[1]);
-      const Described described{part[2], part[4], number<int>(part[3]), {}};
-      if (id != no_message && !dbc_.messages.try_emplace(id, described).second) {
-        fail(fmt::format("line {}: identifier {} is there twice", line_, id));
-      }
-    } else if (std::regex_match(line, part, attribute)) {
-      const auto found = dbc_.messages.find(number<std::uint32_t>(part[2]));
-      if (found != dbc_.messages.end()) {
-        found->second.attributes[part[1]] = number<double>(part[3]);
-      }
-    } else if (std::regex_match(line, part, absent)) {
-      dbc_.defaults[part[1]] = number<double>(part[2]);
-    }
-  }
-
-  std::filesystem::path file_;
-  Dbc dbc_;
-  int line_ = 1;
-};
-
-// The message's own value, or else the file's default, or else 0.
-double attribute(const Dbc& dbc, const Described& message, const char* name) {
-  const auto own = message.attributes.find(name);
-  if (own != message.attributes.end()) {
-    return own->second;
-  }
-  const auto absent = dbc.defaults.find(name);
-  return absent != dbc.defaults.end() ? absent->second : 0.0;
+  }();
+  return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
 }
 
 std::int64_t first_but_zero_ns(std::initializer_list<double> times_ms) {
@@ -130,66 +71,269 @@ struct Traffic {
   double burst = 0.0;
 };
 
-// What keeps a message out of a budget, and the way out; or nothing.
-const char* problem_of(std::uint32_t id, const Described& message, const Traffic& traffic,
-                       double fallback_ms) {
-  if (id > 0x7FF) {
-    return "an extended identifier: the budget is for 11-bit identifiers; leave the message out";
+// One message of a file, and what its attributes mean.
+class MessageReading {
+ public:
+  MessageReading(const DbcFile& file, std::uint32_t id, const DbcMessage& message, const DbcOptions& options)
+      : file_(file), id_(id), message_(message), options_(options) {}
+
+  // Nothing if it belongs in no budget.
+  [[nodiscard]] std::optional<BusMessage> bus_message() const {
+    if (number(dbc_attribute::awaited) != 0.0) {
+      return std::nullopt;
+    }
+    require_identifier();
+    const Traffic traffic{.period_ms = period_ms(),
+                          .distance_ms = distance_ms(),
+                          .deadline_ms = number(dbc_attribute::deadline),
+                          .burst = number(dbc_attribute::burst)};
+    require_in_range(traffic);
+    const auto fallback_ms = static_cast<double>(options_.default_distance_ms);
+    const auto [period_ms, distance_ms, deadline_ms, burst] = traffic;
+    const std::int64_t distance_ns = first_but_zero_ns({distance_ms, period_ms, fallback_ms});
+    const bool has_burst = burst > 1.0;
+    return BusMessage{
+        .name = message_.name,
+        .sender = message_.sender,
+        .id = id_ & ~extended_identifier_bit,
+        .bytes = message_.bytes,
+        .period_ns = has_burst ? first_but_zero_ns({period_ms, distance_ms, fallback_ms}) : distance_ns,
+        .distance_ns = distance_ns,
+        .burst = std::max<std::int64_t>(1, std::llround(burst)),
+        .deadline_ns = first_but_zero_ns({deadline_ms, period_ms, distance_ms, fallback_ms}),
+        .format = format(),
+        .events_uncounted = names_events() && period_ms != 0.0 && distance_ms == 0.0 && !has_burst};
   }
-  if (message.bytes > 8) {
-    return "more than 8 bytes: the budget is for classic CAN; leave the message out";
+
+ private:
+  struct Said {
+    std::string text;
+    bool own = false;
+    int line = 0;
+  };
+
+  [[noreturn]] void fail(int line, const std::string& what) const {
+    fail_dbc(file_.name, line, fmt::format("message {}: {}", shown(message_.name), what));
   }
-  if (first_but_zero_ns({traffic.period_ms, traffic.distance_ms, fallback_ms}) == 0) {
-    return "neither GenMsgCycleTime nor GenMsgDelayTime: give one, or --default-distance-ms";
+  [[noreturn]] void fail(const std::string& what) const { fail(message_.line, what); }
+
+  [[nodiscard]] std::optional<Said> said(std::string_view attribute) const {
+    if (const auto values = file_.values.find(id_); values != file_.values.end()) {
+      if (const auto own = values->second.find(attribute); own != values->second.end()) {
+        return meaning(attribute, own->second, true);
+      }
+    }
+    const bool is_others =
+        file_.defined_elsewhere.contains(attribute) && !file_.definitions.contains(attribute);
+    const auto absent = file_.defaults.find(attribute);
+    return absent == file_.defaults.end() || is_others || absent->second.text.empty()
+               ? std::nullopt
+               : std::optional(meaning(attribute, absent->second, false));
   }
-  for (const double time_ms : {traffic.period_ms, traffic.distance_ms, traffic.deadline_ms}) {
-    if (!(time_ms == 0.0 || (time_ms >= 0.001 && time_ms <= 1e7))) {
-      return "times go from 0.001 to 10,000,000 ms";
+
+  // Of an ENUM the text that an index stands for.
+  [[nodiscard]] Said meaning(std::string_view attribute, const DbcValue& value, bool own) const {
+    const auto definition = file_.definitions.find(attribute);
+    if (definition == file_.definitions.end() || definition->second.type != DbcDefinition::Type::choice) {
+      return {value.text, own, value.line};
+    }
+    const auto& choices = definition->second.choices;
+    const auto index = number_in<std::size_t>(value.text, 10);
+    if (!value.is_text && index && *index < choices.size()) {
+      return {choices[*index], own, value.line};
+    }
+    if (!value.is_text || std::find(choices.begin(), choices.end(), value.text) == choices.end()) {
+      fail(
+          value.line,
+          fmt::format("{} '{}' is none of the {} values that BA_DEF_ gives it: give one, or its index from 0",
+                      attribute, shown(value.text), choices.size()));
+    }
+    return {value.text, own, value.line};
+  }
+
+  [[nodiscard]] double number_of(std::string_view attribute, const Said& said) const {
+    const auto definition = file_.definitions.find(attribute);
+    const bool is_hex = definition != file_.definitions.end() &&
+                        definition->second.type == DbcDefinition::Type::hex &&
+                        (said.text.starts_with("0x") || said.text.starts_with("0X"));
+    std::optional<double> value;
+    if (is_hex) {
+      value = number_in<std::uint64_t>(std::string_view(said.text).substr(2), 16);
+    } else {
+      value = number_in<double>(std::string_view(said.text).substr(said.text.starts_with('+') ? 1 : 0), 10);
+    }
+    if (!value || !std::isfinite(*value)) {
+      fail(said.line, fmt::format("{} '{}' is no number: give one", attribute, shown(said.text)));
+    }
+    return *value;
+  }
+
+  [[nodiscard]] double number(std::string_view attribute) const {
+    const auto given = said(attribute);
+    return given ? number_of(attribute, *given) : 0.0;
+  }
+
+  [[nodiscard]] std::optional<Said> send_type() const {
+    auto type = said(dbc_attribute::send_type);
+    if (type && number_in<double>(type->text, 10)) {
+      fail(type->line, fmt::format("nothing says what GenMsgSendType {} is: define it, as BA_DEF_ BO_ "
+                                   "\"GenMsgSendType\" ENUM \"Cyclic\",\"OnEvent\";",
+                                   shown(type->text)));
+    }
+    return type;
+  }
+
+  [[nodiscard]] bool names_cycle() const {
+    const auto type = send_type();
+    return !type || (contains_any(type->text, {"cycl", "period"}) &&
+                     !contains_any(type->text, {"acycl", "aperiod", "noncycl", "nonperiod"}));
+  }
+
+  [[nodiscard]] bool names_events() const {
+    const auto type = send_type();
+    return type && contains_any(type->text, {"event", "spontan", "change", "write", "trigger"});
+  }
+
+  [[nodiscard]] double period_ms() const {
+    const auto cycle = said(dbc_attribute::cycle_time);
+    return cycle && (cycle->own || names_cycle()) ? number_of(dbc_attribute::cycle_time, *cycle) : 0.0;
+  }
+
+  [[nodiscard]] double distance_ms() const {
+    const auto delay = said(dbc_attribute::delay_time);
+    return delay && (delay->own || !send_type() || names_events())
+               ? number_of(dbc_attribute::delay_time, *delay)
+               : 0.0;
+  }
+
+  // "": the file does not say.
+  [[nodiscard]] std::string named_format() const {
+    const auto named = said(dbc_attribute::frame_format);
+    if (!named) {
+      return "";
+    }
+    const auto index = number_in<std::size_t>(named->text, 10);
+    std::string name(index && *index < frame_formats.size() ? frame_formats[*index] : named->text);
+    if (!contains_any(name, {"fd"}) && name != "StandardCAN" && name != "ExtendedCAN" && name != "J1939PG") {
+      fail(named->line,
+           fmt::format("VFrameFormat '{}' is unknown: give StandardCAN, ExtendedCAN, StandardCAN_FD, "
+                       "ExtendedCAN_FD or J1939PG",
+                       shown(named->text)));
+    }
+    return name;
+  }
+
+  [[nodiscard]] FrameFormat format() const {
+    const std::string named = named_format();
+    FrameFormat format{.extended = (id_ & extended_identifier_bit) != 0,
+                       .fd = contains_any(named, {"fd"}) || message_.bytes > 8};
+    if (format.fd && named == "J1939PG") {
+      fail(
+          "a J1939 message of more than 8 bytes goes in several frames: give those (TP.CM, TP.DT) in its place");
+    }
+    if (message_.bytes < 0 || message_.bytes > 64) {
+      fail(fmt::format("a frame has 0 to 64 bytes, not {}: give the frames that carry it", message_.bytes));
+    }
+    const auto switches = said(dbc_attribute::bit_rate_switch);
+    format.bit_rate_switch =
+        format.fd && (!switches || number_of(dbc_attribute::bit_rate_switch, *switches) != 0.0);
+    if (format.bit_rate_switch && !options_.has_data_bitrate) {
+      fail("CAN FD with a second bit rate: give --data-bitrate, or CANFD_BRS 0");
+    }
+    return format;
+  }
+
+  void require_identifier() const {
+    const bool is_extended = (id_ & extended_identifier_bit) != 0;
+    if (!is_extended && id_ > greatest_standard_id) {
+      fail(fmt::format("identifier {} has more than 11 bits: one of 29 bits has bit 31 set (add 2147483648)",
+                       id_));
+    }
+    if (is_extended && (id_ & ~extended_identifier_bit) > greatest_extended_id) {
+      fail(fmt::format("identifier {} has more than 29 bits below bit 31: correct it", id_));
     }
   }
-  if (!(traffic.burst >= 0.0 && traffic.burst <= 1e3) ||
-      (traffic.period_ms > 0.0 && traffic.distance_ms > traffic.period_ms)) {
-    return "Burst goes from 1 to 1000, and GenMsgDelayTime up to GenMsgCycleTime";
+
+  void require_in_range(const Traffic& traffic) const {
+    const auto [period_ms, distance_ms, deadline_ms, burst] = traffic;
+    if (period_ms == 0.0 && distance_ms == 0.0 && options_.default_distance_ms == 0) {
+      const auto type = send_type();
+      fail(!names_cycle()
+               ? fmt::format("GenMsgSendType '{}' has no cycle, and it has no GenMsgDelayTime: give one, or "
+                             "--default-distance-ms",
+                             shown(type->text))
+               : "neither GenMsgCycleTime nor GenMsgDelayTime: give one, or --default-distance-ms");
+    }
+    for (const double time_ms : {period_ms, distance_ms, deadline_ms}) {
+      if (time_ms != 0.0 && (time_ms < 0.001 || time_ms > 1e7)) {
+        fail(fmt::format("times go from 0.001 to 10,000,000 ms, not {}: correct it", time_ms));
+      }
+    }
+    if (burst < 0.0 || burst > 1e3 || burst != std::floor(burst)) {
+      fail(fmt::format("Burst goes from 1 to 1000, not {}: correct it", burst));
+    }
+    if (period_ms > 0.0 && distance_ms > period_ms) {
+      fail(fmt::format("GenMsgDelayTime {} goes up to GenMsgCycleTime {}: correct one", distance_ms,
+                       period_ms));
+    }
   }
-  return nullptr;
+
+  const DbcFile& file_;
+  std::uint32_t id_;
+  const DbcMessage& message_;
+  const DbcOptions& options_;
+};
+
+// A value for a message that is not there says that the file lacks one.
+void require_messages_of_values(const DbcFile& file) {
+  for (const auto& [id, values] : file.values) {
+    if (!file.messages.contains(id)) {
+      const auto& [attribute, value] = *values.begin();
+      fail_dbc(file.name, value.line,
+               fmt::format("{} of message {}, which is not there: give its BO_, or remove the value",
+                           attribute, id));
+    }
+  }
 }
 
-BusMessage bus_message(std::uint32_t id, const Described& message, const Traffic& traffic,
-                       double fallback_ms) {
-  const auto [period_ms, distance_ms, deadline_ms, burst] = traffic;
-  const std::int64_t distance_ns = first_but_zero_ns({distance_ms, period_ms, fallback_ms});
-  const std::int64_t period_ns =
-      burst > 1.0 ? first_but_zero_ns({period_ms, distance_ms, fallback_ms}) : distance_ns;
-  return {.name = message.name,
-          .sender = message.sender,
-          .id = static_cast<std::uint16_t>(id),
-          .bytes = message.bytes,
-          .period_ns = period_ns,
-          .distance_ns = distance_ns,
-          .burst = std::max<std::int64_t>(1, std::llround(burst)),
-          .deadline_ns = first_but_zero_ns({deadline_ms, period_ms, distance_ms, fallback_ms})};
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::error_code none;
+  if (!stream || std::filesystem::is_directory(file, none)) {
+    const char* why = stream ? "it is a directory" : std::strerror(errno);
+    throw std::runtime_error(fmt::format("{}: cannot be read ({}): name a DBC file", file.string(), why));
+  }
+  std::string text;
+  std::array<char, 65'536> part{};
+  while (stream.read(part.data(), part.size()) || stream.gcount() > 0) {
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > most_bytes) {
+      throw std::runtime_error(
+          fmt::format("{}: more than {} MiB: name a DBC file", file.string(), most_bytes >> 20U));
+    }
+  }
+  return text;
 }
 
 }  // namespace
 
-std::vector<BusMessage> read_dbc(const std::filesystem::path& file, std::int64_t default_distance_ms) {
-  const DbcReader reader(file);
-  const auto fallback_ms = static_cast<double>(default_distance_ms);
+std::vector<BusMessage> read_dbc(std::string_view text, const std::string& name, const DbcOptions& options) {
+  const DbcFile file = parse_dbc(text, name);
+  require_messages_of_values(file);
   std::vector<BusMessage> messages;
-  for (const auto& [id, message] : reader.dbc().messages) {
-    if (attribute(reader.dbc(), message, "Awaited") != 0.0) {
-      continue;
+  for (const auto& [id, message] : file.messages) {
+    if (const auto read = MessageReading(file, id, message, options).bus_message()) {
+      messages.push_back(*read);
     }
-    const Traffic traffic{.period_ms = attribute(reader.dbc(), message, "GenMsgCycleTime"),
-                          .distance_ms = attribute(reader.dbc(), message, "GenMsgDelayTime"),
-                          .deadline_ms = attribute(reader.dbc(), message, "Deadline"),
-                          .burst = attribute(reader.dbc(), message, "Burst")};
-    if (const char* problem = problem_of(id, message, traffic, fallback_ms)) {
-      throw std::runtime_error(fmt::format("{}: message {}: {}", file.string(), message.name, problem));
-    }
-    messages.push_back(bus_message(id, message, traffic, fallback_ms));
   }
+  std::sort(messages.begin(), messages.end(), [](const BusMessage& a, const BusMessage& b) {
+    return arbitration_rank(a.id, a.format.extended) < arbitration_rank(b.id, b.format.extended);
+  });
   return messages;
+}
+
+std::vector<BusMessage> read_dbc(const std::filesystem::path& file, const DbcOptions& options) {
+  return read_dbc(read_text(file), file.string(), options);
 }
 
 }  // namespace striker::sil

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "sil/bus/frame_bits.hpp"
-
 namespace striker::sil {
 
 namespace {
@@ -16,8 +14,8 @@ constexpr std::int64_t ceil_div(std::int64_t dividend, std::int64_t divisor) {
   return (dividend + divisor - 1) / divisor;
 }
 
-std::int64_t longest_frame_ns(const BusMessage& message, std::int64_t bit_ns) {
-  return worst_case_frame_bits(message.bytes) * bit_ns;
+std::uint32_t rank(const BusMessage& message) {
+  return arbitration_rank(message.id, message.format.extended);
 }
 
 std::int64_t frames_within(std::int64_t window_ns, const BusMessage& message) {
@@ -37,13 +35,13 @@ class Level {
   Level(const std::vector<BusMessage>& messages, const BusMessage& message, const BusAssumptions& assumptions)
       : message_(message),
         assumptions_(assumptions),
-        frame_ns_(longest_frame_ns(message, assumptions.bit_ns)),
+        frame_ns_(longest_frame_ns(message, assumptions)),
         longest_again_ns_(frame_ns_) {
     for (const BusMessage& other : messages) {
-      const std::int64_t other_ns = longest_frame_ns(other, assumptions.bit_ns);
-      if (other.id > message.id) {
+      const std::int64_t other_ns = longest_frame_ns(other, assumptions);
+      if (rank(other) > rank(message)) {
         blocking_ns_ = std::max(blocking_ns_, other_ns);
-      } else if (other.id < message.id) {
+      } else if (rank(other) < rank(message)) {
         higher_.push_back({&other, other_ns});
         longest_again_ns_ = std::max(longest_again_ns_, other_ns);
       }
@@ -148,6 +146,13 @@ class Level {
 
 }  // namespace
 
+std::int64_t longest_frame_ns(const BusMessage& message, const BusAssumptions& assumptions) {
+  const FrameBits bits = worst_case_frame_bits(message.bytes, message.format);
+  const bool switches = message.format.bit_rate_switch && assumptions.data_bit_ns != 0;
+  return bits.arbitration * assumptions.bit_ns +
+         bits.data * (switches ? assumptions.data_bit_ns : assumptions.bit_ns);
+}
+
 std::vector<MessageResponse> response_times(const std::vector<BusMessage>& messages,
                                             const BusAssumptions& assumptions) {
   std::vector<MessageResponse> responses;
@@ -162,10 +167,11 @@ bool meets_deadline(const BusMessage& message, const MessageResponse& response) 
   return response.response_ns && *response.response_ns <= message.deadline_ns;
 }
 
-double utilisation(const std::vector<BusMessage>& messages, std::int64_t bit_ns) {
+double utilisation(const std::vector<BusMessage>& messages, const BusAssumptions& assumptions) {
   double sum = 0.0;
   for (const BusMessage& message : messages) {
-    sum += static_cast<double>(longest_frame_ns(message, bit_ns)) / static_cast<double>(message.period_ns);
+    sum +=
+        static_cast<double>(longest_frame_ns(message, assumptions)) / static_cast<double>(message.period_ns);
   }
   return sum;
 }

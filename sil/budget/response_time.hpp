@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worst-case response times on a classic CAN bus: the corrected analysis of R. I. Davis, A. Burns, R. J.
+// Worst-case response times on a CAN bus, classic or FD: the corrected analysis of R. I. Davis, A. Burns, R. J.
 // Bril, J. J. Lukkien, "Controller Area Network (CAN) schedulability analysis: Refuted, revisited and
 // revised", Real-Time Systems 35 (2007). The analysis of 1994 looks at a message's first instance alone; a
 // later one in the same busy period may be worse. For message m, with hp(m) the messages of higher priority:
 //
-//   C_m     bits of the longest frame times the bit time
+//   C_m     the longest frame: its bits times the bit time, of CAN FD times the bit time of each part
 //   B_m     the longest frame of lower priority: it cannot be interrupted
 //   n_k(t)  frames of k that can be queued within t: ceil((t + J_k) / T_k)
 //   E(t)    errors and what is sent again: (floor(t / T_error) + 1) times 31 bits and the longest frame of
@@ -26,23 +26,28 @@
 #include <string>
 #include <vector>
 
+#include "sil/bus/frame_bits.hpp"
+
 namespace striker::sil {
 
 struct BusMessage {
   std::string name;
   std::string sender;
-  std::uint16_t id = 0;  // unique
+  std::uint32_t id = 0;  // of 11 or 29 bits, unique among those
   std::int64_t bytes = 0;
   std::int64_t period_ns = 0;
   std::int64_t distance_ns = 0;  // 0 < distance <= period
   std::int64_t burst = 1;
   std::int64_t jitter_ns = 0;  // from the event to the queueing, at most
   std::int64_t deadline_ns = 0;
+  FrameFormat format = {};
+  bool events_uncounted = false;  // it comes on events too, which nothing bounds: only its period counts
 };
 
 struct BusAssumptions {
   std::int64_t bit_ns = 1000;
   std::int64_t error_distance_ns = 0;  // shortest time between two errors; 0: there are none
+  std::int64_t data_bit_ns = 0;        // of the second bit rate; 0: there is none, frames do not switch
 };
 
 struct MessageResponse {
@@ -54,13 +59,16 @@ struct MessageResponse {
   std::int64_t first_instance_ns = 0;  // of q = 0: the 1994 analysis
 };
 
-// In the order of `messages`.
+// C, at most.
+[[nodiscard]] std::int64_t longest_frame_ns(const BusMessage& message, const BusAssumptions& assumptions);
+
+// In the order of `messages`. The cost is up to their number squared, times the steps of the busy period.
 [[nodiscard]] std::vector<MessageResponse> response_times(const std::vector<BusMessage>& messages,
                                                           const BusAssumptions& assumptions);
 
 [[nodiscard]] bool meets_deadline(const BusMessage& message, const MessageResponse& response);
 
 // The share of the bus's time that longest frames take, one a period, errors left out.
-[[nodiscard]] double utilisation(const std::vector<BusMessage>& messages, std::int64_t bit_ns);
+[[nodiscard]] double utilisation(const std::vector<BusMessage>& messages, const BusAssumptions& assumptions);
 
 }  // namespace striker::sil

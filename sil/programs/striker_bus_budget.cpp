@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -20,6 +21,7 @@ using namespace striker::sil;
 
 struct Options {
   std::int64_t bitrate = 1'000'000;
+  std::int64_t data_bitrate = 0;
   std::string dbc;
   std::int64_t default_distance_ms = 0;
   double errors_per_s = 0.0;
@@ -34,9 +36,13 @@ void define(CLI::App& app, Options& options) {
   app.add_option("--bitrate", options.bitrate, "of the bus, in bit/s")
       ->check(CLI::Validator(bit_rate_problem, "bit/s"))
       ->capture_default_str();
-  app.add_option(
+  app.add_option("--data-bitrate", options.data_bitrate,
+                 "of the data in CAN FD frames that switch, in bit/s; --bitrate or more")
+      ->check(CLI::Validator(data_bit_rate_problem, "bit/s"));
+  striker::host::reads_file(app.add_option(
       "--dbc", options.dbc,
-      "take the messages of this file (GenMsgCycleTime, GenMsgDelayTime, Burst, Deadline), not Striker's own");
+      "take the messages of this file (GenMsgCycleTime, GenMsgDelayTime, Burst, Deadline), not Striker's own; "
+      "classic and CAN FD, 11 and 29 bits"));
   app.add_option("--default-distance-ms", options.default_distance_ms,
                  "shortest distance of messages for which the DBC gives neither period nor distance")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{10'000'000}))
@@ -55,7 +61,7 @@ void define(CLI::App& app, Options& options) {
       ->check(microseconds)
       ->capture_default_str();
   app.add_flag("--lockstep", options.lockstep, "SYNC frames are the ticks: its response is the lateness");
-  app.add_option("--json", options.json, "write the budget");
+  striker::host::writes_file(app.add_option("--json", options.json, "write the budget"));
 }
 
 std::int64_t to_ns(double us) {
@@ -63,15 +69,20 @@ std::int64_t to_ns(double us) {
 }
 
 BusBudget make_budget(const Options& options) {
+  if (options.data_bitrate != 0 && options.data_bitrate < options.bitrate) {
+    throw std::runtime_error(fmt::format("--data-bitrate {} is slower than --bitrate {}: give that or more",
+                                         options.data_bitrate, options.bitrate));
+  }
   BusBudget budget;
   budget.source = options.dbc.empty() ? "the message table" : options.dbc;
   budget.bitrate = options.bitrate;
+  budget.data_bitrate = options.data_bitrate;
   budget.errors_per_s = options.errors_per_s;
-  budget.messages =
-      options.dbc.empty() ? table_messages() : read_dbc(options.dbc, options.default_distance_ms);
-  const BusAssumptions assumptions{
-      .bit_ns = bit_time_ns(options.bitrate),
-      .error_distance_ns = options.errors_per_s > 0.0 ? to_ns(1e6 / options.errors_per_s) : 0};
+  budget.messages = options.dbc.empty() ? table_messages()
+                                        : read_dbc(std::filesystem::path(options.dbc),
+                                                   {.default_distance_ms = options.default_distance_ms,
+                                                    .has_data_bitrate = options.data_bitrate != 0});
+  const BusAssumptions assumptions = budget.assumptions();
   ControllerTime controller{.lateness_ns = to_ns(options.lateness_us), .step_ns = to_ns(options.step_us)};
   if (options.lockstep) {
     const auto lateness_ns = sync_lateness_ns(budget.messages, assumptions, to_ns(options.jitter_us));

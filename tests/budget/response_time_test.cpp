@@ -21,7 +21,7 @@ std::int64_t uniform(Random& random, std::int64_t least, std::int64_t greatest) 
                                         random.uniform(0.0, static_cast<double>(greatest - least + 1))));
 }
 
-BusMessage periodic(std::string name, std::uint16_t id, std::int64_t bytes, std::int64_t period_ns,
+BusMessage periodic(std::string name, std::uint32_t id, std::int64_t bytes, std::int64_t period_ns,
                     std::int64_t deadline_ns) {
   return {.name = std::move(name),
           .sender = "X",
@@ -92,6 +92,30 @@ TEST(ResponseTime, FramesOnChangesByHand) {
   EXPECT_EQ(response_times(messages, {})[1].response_ns, (3 * 55 + 55) * us);
 }
 
+// Of two with the same first 11 bits the shorter identifier goes first, and both before the next 11 bits.
+TEST(ResponseTime, AMessageWaitsForThoseThatWinTheArbitration) {
+  std::vector<BusMessage> messages = {
+      periodic("Last", 3, 8, 10 * ms, ms), periodic("Next", 2, 8, 10 * ms, ms),
+      periodic("Long", 1U << 18U, 0, 10 * ms, ms), periodic("Short", 1, 0, 10 * ms, ms)};
+  messages[2].format.extended = true;
+  const auto responses = response_times(messages, {});
+  EXPECT_EQ(responses[3].response_ns, (135 + 55) * us);
+  EXPECT_EQ(responses[2].response_ns, (135 + 55 + 80) * us);
+  EXPECT_EQ(responses[1].response_ns, (135 + 55 + 80 + 135) * us);
+  EXPECT_EQ(responses[0].response_ns, (55 + 80 + 135 + 135) * us);
+}
+
+TEST(ResponseTime, OnlyWhatSwitchesGoesAtTheSecondBitRate) {
+  BusMessage message = periodic("A", 1, 64, 10 * ms, ms);
+  message.format = {.fd = true, .bit_rate_switch = true};
+  const std::int64_t data_bits = 39 + 10 * 64;
+  EXPECT_EQ(longest_frame_ns(message, {.bit_ns = 2000, .data_bit_ns = 500}),
+            32 * std::int64_t{2000} + data_bits * 500);
+  EXPECT_EQ(longest_frame_ns(message, {.bit_ns = 2000}), (32 + data_bits) * 2000);
+  message.format.bit_rate_switch = false;
+  EXPECT_EQ(longest_frame_ns(message, {.bit_ns = 2000, .data_bit_ns = 500}), (32 + data_bits) * 2000);
+}
+
 // ---- random message sets -------------------------------------------------------------------------------
 
 struct Drawn {
@@ -105,12 +129,12 @@ Drawn draw_set(Random& random) {
   drawn.assumptions.bit_ns = bit_times_ns[static_cast<std::size_t>(uniform(random, 0, 4))];
   const std::int64_t count = uniform(random, 2, 12);
   const double load = random.uniform(0.2, 1.05);
-  std::set<std::uint16_t> identifiers;
+  std::set<std::uint32_t> identifiers;
   for (std::int64_t i = 0; i < count; ++i) {
     BusMessage message;
     message.bytes = uniform(random, 0, 8);
     do {
-      message.id = static_cast<std::uint16_t>(uniform(random, 0, 0x7FF));
+      message.id = static_cast<std::uint32_t>(uniform(random, 0, 0x7FF));
     } while (!identifiers.insert(message.id).second);
     const double share = load / static_cast<double>(count) * random.uniform(0.3, 1.7);
     const auto frame_ns =
@@ -196,6 +220,66 @@ TEST(ResponseTime, NoSimulatedBusIsBeyondTheBound) {
         std::count_if(bounds.begin(), bounds.end(), [](const auto& bound) { return bound.response_ns; }));
   }
   EXPECT_GT(judged, 50'000U);
+}
+
+// Identifiers and formats of all kinds, at two bit rates.
+Drawn draw_formats(Random& random) {
+  Drawn drawn = draw_set(random);
+  drawn.assumptions = {.bit_ns = 1000, .data_bit_ns = 250};
+  for (BusMessage& message : drawn.messages) {
+    message.format = {.extended = random.uniform() < 0.5, .fd = random.uniform() < 0.5};
+    message.format.bit_rate_switch = message.format.fd && random.uniform() < 0.7;
+    message.bytes = message.format.fd ? uniform(random, 0, 64) : message.bytes;
+    message.id = message.format.extended ? message.id / 8 << 18U | message.id : message.id;
+    const auto longest_ns = static_cast<double>(longest_frame_ns(message, drawn.assumptions));
+    message.period_ns = static_cast<std::int64_t>(longest_ns * random.uniform(5.0, 30.0));
+    message.distance_ns = message.burst == 1 ? message.period_ns : uniform(random, 1, message.period_ns);
+    message.jitter_ns = uniform(random, 0, message.period_ns);
+  }
+  return drawn;
+}
+
+// With identifiers of 11 bits that go in the same order.
+std::vector<BusMessage> renumbered(std::vector<BusMessage> messages) {
+  const auto rank = [](const BusMessage& message) {
+    return arbitration_rank(message.id, message.format.extended);
+  };
+  std::vector<std::uint32_t> ranks;
+  ranks.reserve(messages.size());
+  for (const BusMessage& message : messages) {
+    ranks.push_back(rank(message));
+  }
+  std::sort(ranks.begin(), ranks.end());
+  for (BusMessage& message : messages) {
+    const auto place = std::lower_bound(ranks.begin(), ranks.end(), rank(message));
+    message.id = static_cast<std::uint32_t>(place - ranks.begin());
+  }
+  return messages;
+}
+
+// The simulated bus knows identifiers of 11 bits and one bit rate: it counts all time in bits of the faster one.
+TEST(ResponseTime, NoSimulatedBusOfAllFormatsIsBeyondTheBound) {
+  constexpr std::int64_t horizon_ns = 100 * ms;
+  Random random(11898, 0, 0);
+  std::int64_t judged = 0;
+  for (std::uint64_t set = 0; set < 1'000; ++set) {
+    const Drawn drawn = draw_formats(random);
+    const std::int64_t data_bit_ns = drawn.assumptions.data_bit_ns;
+    const auto bounds = response_times(drawn.messages, drawn.assumptions);
+    const auto simulated = renumbered(drawn.messages);
+    const auto victim =
+        static_cast<std::size_t>(uniform(random, 0, static_cast<std::int64_t>(simulated.size()) - 1));
+    const auto traffic = set % 2 == 0 ? random_traffic(simulated, random, horizon_ns)
+                                      : critical_instant(simulated, victim, data_bit_ns, horizon_ns);
+    const auto longest =
+        longest_responses(simulated, data_bit_ns, traffic, {}, [&](const BusMessage& message) {
+          return longest_frame_ns(message, drawn.assumptions) / data_bit_ns;
+        });
+    ASSERT_NO_FATAL_FAILURE(expect_within(drawn, bounds, longest, set));
+    judged +=
+        std::count_if(bounds.begin(), bounds.end(), [](const auto& bound) { return bound.response_ns; });
+  }
+  EXPECT_GT(judged, 6'000);
 }
 
 struct Reached {

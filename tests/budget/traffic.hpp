@@ -59,9 +59,10 @@ inline std::vector<std::int64_t> longest_responses(
   ArbitratedBus bus(bit_ns, errors);
   std::map<std::uint16_t, std::size_t> index;
   for (std::size_t k = 0; k < messages.size(); ++k) {
-    index[messages[k].id] = k;
+    const auto id = static_cast<std::uint16_t>(messages[k].id);
+    index[id] = k;
     for (const Event& event : traffic[k]) {
-      bus.queue({{messages[k].id, static_cast<std::uint8_t>(messages[k].bytes), {}},
+      bus.queue({{id, static_cast<std::uint8_t>(messages[k].bytes), {}},
                  bits_of(messages[k]),
                  event.at_ns + event.delay_ns});
     }

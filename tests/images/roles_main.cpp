@@ -18,7 +18,7 @@
 #include "firmware/loop/gated_node.hpp"
 #include "firmware/policy/exported/kick.hpp"
 #include "tests/images/console.hpp"
-#include "tests/loop/consent.hpp"
+#include "tests/loop/bench/consent.hpp"
 #include "tests/policy/wander_policy.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/gated_node.hpp"
 #include "tests/images/instruction_counter.hpp"
-#include "tests/loop/consent.hpp"
+#include "tests/loop/bench/consent.hpp"
 #include "tests/policy/synthetic_policy.hpp"
 
 namespace striker::images {

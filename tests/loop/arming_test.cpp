@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "tests/loop/node_rig.hpp"
+#include "tests/loop/bench/node_rig.hpp"
 
 namespace striker::loop {
 namespace {

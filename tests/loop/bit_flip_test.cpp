@@ -9,7 +9,7 @@
 #include <sstream>
 #include <vector>
 
-#include "tests/loop/node_rig.hpp"
+#include "tests/loop/bench/node_rig.hpp"
 
 namespace striker::loop {
 namespace {

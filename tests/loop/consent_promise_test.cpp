@@ -9,7 +9,7 @@
 
 #include "firmware/can/receiver.hpp"
 #include "firmware/core/supervision/consent.hpp"
-#include "tests/loop/node_rig.hpp"
+#include "tests/loop/bench/node_rig.hpp"
 
 namespace striker::loop {
 namespace {

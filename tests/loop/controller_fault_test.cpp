@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/loop/node_rig.hpp"
+#include "tests/loop/bench/node_rig.hpp"
 
 namespace striker::loop {
 namespace {

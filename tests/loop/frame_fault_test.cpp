@@ -2,7 +2,7 @@
 // Every protected frame that reaches the controller, broken in every way: ignored whole, and counted.
 #include <gtest/gtest.h>
 
-#include "tests/loop/node_rig.hpp"
+#include "tests/loop/bench/node_rig.hpp"
 
 namespace striker::loop {
 namespace {

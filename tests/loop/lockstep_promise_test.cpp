@@ -8,7 +8,7 @@
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/sync_ticks.hpp"
 #include "firmware/loop/tick_loop.hpp"
-#include "tests/loop/memory_bus.hpp"
+#include "tests/loop/bench/memory_bus.hpp"
 
 namespace striker::loop {
 namespace {
@@ -153,6 +153,33 @@ TEST_F(LockstepPromise, ARestartOfTimeKeepsAStopThatStillWaits) {
   EXPECT_FALSE(loop_.turn());
   give(0);
   EXPECT_TRUE(stopped());
+}
+
+// Frames on the stop's identifier that are none, before and behind it, also where there is no room for all.
+TEST(LockstepStop, AWrongOneTakesNoRightOnesPlace) {
+  can::SendCounter counter;
+  const can::Frame right = can::send(can::EmergencyStop{}, counter);
+  can::Frame wrong = right;
+  wrong.data[0] ^= 1U;
+  for (const std::size_t before : {0U, 1U, 40U}) {
+    for (const std::size_t behind : {0U, 1U, 40U}) {
+      for (const std::uint32_t tick : {0U, 1U}) {  // a restart, or the next
+        World world;
+        MemoryBus<std::int64_t> bus;
+        SyncTicks ticks;
+        TickLoop<BuiltInNode, MemoryBus<std::int64_t>&, SyncTicks&> loop(built_in_robot, bus, ticks);
+        bus.waiting = {world.sync(0)};
+        bus.waiting.insert(bus.waiting.end(), before, wrong);
+        bus.waiting.push_back(right);
+        bus.waiting.insert(bus.waiting.end(), behind, wrong);
+        bus.waiting.push_back(world.sync(tick));
+        while (loop.turn()) {
+        }
+        EXPECT_NE(loop.node().controller().faults() & core::set_of(Fault::emergency_stop), 0U)
+            << before << " " << behind << " " << tick;
+      }
+    }
+  }
 }
 
 TEST_F(LockstepPromise, ALostSyncIsToldAgainAndAgain) {

@@ -7,7 +7,7 @@
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/sync_ticks.hpp"
 #include "firmware/loop/tick_loop.hpp"
-#include "tests/loop/memory_bus.hpp"
+#include "tests/loop/bench/memory_bus.hpp"
 
 namespace striker::loop {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "tests/loop/node_rig.hpp"
+#include "tests/loop/bench/node_rig.hpp"
 
 namespace striker::loop {
 namespace {

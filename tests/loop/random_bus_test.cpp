@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "tests/loop/node_rig.hpp"
+#include "tests/loop/bench/node_rig.hpp"
 
 namespace striker::loop {
 namespace {

@@ -12,7 +12,7 @@
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/clock_ticks.hpp"
 #include "firmware/loop/sync_ticks.hpp"
-#include "tests/loop/memory_bus.hpp"
+#include "tests/loop/bench/memory_bus.hpp"
 
 namespace striker::loop {
 namespace {

@@ -66,6 +66,40 @@ class BudgetCommandLine(files_case.FilesCase):
         for more in (["--errors-per-s", "10"], ["--jitter-us", "200"], ["--step-us", "90"], ["--lateness-us", "300"]):
             self.assertGreater(sum(response(*more)), sum(response()), more)
 
+    def test_errors_that_are_rare_without_end_are_one(self):
+        once = budget("--errors-per-s", "0.001").stdout.splitlines()[1:]
+        self.assertEqual(budget("--errors-per-s", "1e-300").stdout.splitlines()[1:], once)
+        self.assertNotEqual(budget().stdout.splitlines()[1:], once)
+
+    def test_can_fd_has_two_bit_rates(self):
+        dbc = self.file("fd.dbc", 'BO_ 1 Fd: 64 A\nBO_ 2147483649 Long: 8 A\nBO_ 2 Short: 8 A\n')
+        def frames(*arguments):
+            result = budget("--dbc", dbc, "--default-distance-ms", "10", "--json", self.file("f.json"), *arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.file("f.json"), encoding="utf-8") as stream:
+                summary = json.load(stream)
+            return summary["data_bitrate"], {message["name"]: message for message in summary["messages"]}
+        rate, messages = frames("--bitrate", "500000", "--data-bitrate", "2000000")
+        self.assertEqual(rate, 2000000)
+        self.assertEqual({name: message["format"] for name, message in messages.items()},
+                         {"Long": "ExtendedCAN", "Fd": "StandardCAN_FD", "Short": "StandardCAN"})
+        self.assertEqual({name: message["bit_rate_switch"] for name, message in messages.items()},
+                         {"Long": False, "Fd": True, "Short": False})
+        self.assertEqual([messages[name]["frame_us"] for name in ("Fd", "Long", "Short")],
+                         [32 * 2 + (39 + 640) / 2, 160 * 2, 135 * 2])
+        self.assertEqual(messages["Long"]["id"], 1)
+        self.assertEqual(frames("--data-bitrate", "1000000")[1]["Fd"]["frame_us"], 32 + 39 + 640)
+        self.assertEqual(budget("--dbc", dbc, "--default-distance-ms", "10").returncode, 2)
+
+    def test_events_that_nothing_bounds_are_named(self):
+        dbc = self.file("e.dbc", 'BO_ 1 Both: 8 A\nBA_DEF_ BO_ "GenMsgSendType" ENUM "Cyclic","CyclicAndEvent";\n'
+                        'BA_ "GenMsgSendType" BO_ 1 1;\nBA_ "GenMsgCycleTime" BO_ 1 50;\n')
+        result = budget("--dbc", dbc, "--json", self.file("e.json"))
+        self.assertIn("sent on events too (give GenMsgDelayTime): Both", result.stdout)
+        with open(self.file("e.json"), encoding="utf-8") as stream:
+            self.assertEqual(json.load(stream)["events_uncounted"], ["Both"])
+        self.assertNotIn("events", budget().stdout)
+
     def test_the_simulators_log_shows_bus_time_only_when_asked_to(self):
         def stamps_us(*arguments):
             result = kick("--log", self.file("bus.log"), *arguments)
@@ -92,7 +126,12 @@ class BudgetCommandLine(files_case.FilesCase):
         for arguments, word in ((["--bitrate", "83333"], "'83333'"), (["--bitrate", "2000000"], "1000000"),
                                 (["--dbc", "/nonexistent.dbc"], "/nonexistent.dbc"),
                                 (["--json", "/nonexistent/a.json"], "/nonexistent/a.json"),
-                                (["--jitter-us", "-1"], "--jitter-us"),
+                                (["--jitter-us", "-1"], "--jitter-us"), (["--jitter-us", "nan"], "--jitter-us"),
+                                (["--errors-per-s", "nan"], "--errors-per-s"),
+                                (["--lateness-us", "inf"], "--lateness-us"), (["--step-us", "-nan"], "--step-us"),
+                                (["--dbc", ""], "--dbc"), (["--json", ""], "--json"),
+                                (["--data-bitrate", "3000000"], "'3000000'"),
+                                (["--data-bitrate", "500000"], "--data-bitrate 500000 is slower"),
                                 (["--lockstep", "--dbc", self.file("a.dbc", "BO_ 1 M: 8 A\n"),
                                   "--default-distance-ms", "5"], "--lockstep")):
             result = budget(*arguments)

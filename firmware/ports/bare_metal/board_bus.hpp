@@ -66,7 +66,7 @@ class BoardBus {
   // Between two polls there is at most a step.
   static constexpr std::uint32_t longest_step_us = 2'000;
 
-  // An emergency stop always finds room.
+  // An emergency stop always finds room, and a wrong frame on its identifier takes none of it.
   void keep(const can::Frame& frame) {
     if (count_ < frames_.size()) {
       oldest_us_ = count_ == 0 ? clock_->now() : oldest_us_;
@@ -74,7 +74,7 @@ class BoardBus {
       return;
     }
     ++lost_;
-    if (can::is<can::EmergencyStop>(frame)) {
+    if (can::is_valid<can::EmergencyStop>(frame)) {
       frames_.back() = frame;
     }
   }

@@ -13,7 +13,7 @@
 #include "firmware/can/codec.hpp"
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/gated_node.hpp"
-#include "tests/loop/consent.hpp"
+#include "tests/loop/bench/consent.hpp"
 
 namespace striker::loop {
 

@@ -12,7 +12,7 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/loop/bus.hpp"
-#include "tests/loop/consent.hpp"
+#include "tests/loop/bench/consent.hpp"
 
 namespace striker::loop {
 
