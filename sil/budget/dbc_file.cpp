@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "sil/budget/dbc_scanner.hpp"
+#include "sil/budget/dbc_cursor.hpp"
 
 namespace striker::sil {
 
@@ -20,45 +19,17 @@ constexpr std::uint32_t no_message = 0x40000000;
 constexpr std::string_view no_message_name = "VECTOR__INDEPENDENT_SIG_MSG";
 constexpr std::string_view no_node = "Vector__XXX";
 
-// What may stand under NS_.
-constexpr std::array<std::string_view, 28> new_symbols = {"NS_DESC_",       "CM_",
-                                                          "BA_DEF_",        "BA_",
-                                                          "VAL_",           "CAT_DEF_",
-                                                          "CAT_",           "FILTER",
-                                                          "BA_DEF_DEF_",    "EV_DATA_",
-                                                          "ENVVAR_DATA_",   "SGTYPE_",
-                                                          "SGTYPE_VAL_",    "BA_SGTYPE_",
-                                                          "BA_DEF_SGTYPE_", "SIG_TYPE_REF_",
-                                                          "VAL_TABLE_",     "SIG_GROUP_",
-                                                          "BO_TX_BU_",      "BA_DEF_REL_",
-                                                          "SIG_VALTYPE_",   "SIGTYPE_VALTYPE_",
-                                                          "BA_REL_",        "BA_DEF_DEF_REL_",
-                                                          "BU_SG_REL_",     "BU_EV_REL_",
-                                                          "BU_BO_REL_",     "SG_MUL_VAL_"};
-
-constexpr std::array<std::string_view, 6> other_keywords = {"NS_", "BS_", "BU_", "BO_", "SG_", "EV_"};
-
-template <std::size_t Count>
-bool is_one_of(const std::array<std::string_view, Count>& words, std::string_view word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
+bool is_read(std::string_view attribute) {
+  return std::find(dbc_attribute::all.begin(), dbc_attribute::all.end(), attribute) !=
+         dbc_attribute::all.end();
 }
 
-// A node, a signal or a message may be called FILTER or VERSION, but not BO_.
-bool is_keyword(const DbcToken& token) {
-  return token.is_word() && token.text != "FILTER" &&
-         (is_one_of(new_symbols, token.text) || is_one_of(other_keywords, token.text));
-}
-
-bool begins_with_digit(const DbcToken& token) {
-  return token.is_word() && token.text.front() >= '0' && token.text.front() <= '9';
-}
-
-class DbcParser {
+class DbcParser : private DbcCursor {
  public:
-  DbcParser(std::string_view text, const std::string& name) : tokens_(text, name) { file_.name = name; }
+  DbcParser(std::string_view text, const std::string& name) : DbcCursor(text, name) { file_.name = name; }
 
   DbcFile parse() && {
-    while (tokens_.current().kind != DbcToken::Kind::end) {
+    while (current().kind != DbcToken::Kind::end) {
       statement();
     }
     if (file_.messages.empty()) {
@@ -76,79 +47,20 @@ class DbcParser {
   };
   static const std::array<Statement, 31> statements;
 
-  [[noreturn]] void fail(int line, const std::string& what) const { fail_dbc(file_.name, line, what); }
-
-  [[noreturn]] void fail_here(std::string_view wanted) const {
-    const DbcToken& found = tokens_.current();
-    const std::string place =
-        found.kind == DbcToken::Kind::end ? "the file's end" : fmt::format("'{}'", shown(found.text));
-    fail(found.line, fmt::format("{} where the {} of line {} needs {}: complete it, or remove it", place,
-                                 begun_.text, begun_.line, wanted));
-  }
-
-  // ---- parts of statements -----------------------------------------------------------------------------
-
-  bool accept(char mark) {
-    const bool is_there = tokens_.current().is_mark(mark);
-    if (is_there) {
-      tokens_.take();
-    }
-    return is_there;
-  }
-  bool accept(std::string_view word) {
-    const bool is_there = tokens_.current().is_word(word);
-    if (is_there) {
-      tokens_.take();
-    }
-    return is_there;
-  }
-  void expect(char mark) {
-    if (!accept(mark)) {
-      fail_here(fmt::format("'{}'", mark));
-    }
-  }
-  DbcToken word(std::string_view what) {
-    if (!tokens_.current().is_word() || is_keyword(tokens_.current())) {
-      fail_here(what);
-    }
-    return tokens_.take();
-  }
-  DbcToken text(std::string_view what) {
-    if (!tokens_.current().is_text()) {
-      fail_here(what);
-    }
-    return tokens_.take();
-  }
   DbcValue value() {
-    const DbcToken token = tokens_.current().is_text() ? tokens_.take() : word("a value");
+    const DbcToken token = current().is_text() ? take() : word("a value");
     return {std::string(token.text), token.is_text(), token.line};
   }
-  template <class Number>
-  Number number(std::string_view what) {
-    const DbcToken token = word(what);
-    Number value{};
-    const char* end = token.text.data() + token.text.size();
-    const auto [stop, error] = std::from_chars(token.text.data(), end, value);
-    if (error != std::errc() || stop != end) {
-      fail(token.line,
-           fmt::format("'{}' is no number in range: {} needs {}", shown(token.text), begun_.text, what));
-    }
-    return value;
-  }
-  std::uint32_t identifier() { return number<std::uint32_t>("an identifier, as a decimal number"); }
-
-  // ---- statements --------------------------------------------------------------------------------------
-
   void statement() {
-    begun_ = tokens_.take();
+    begin();
     for (const Statement& known : statements) {
-      if (begun_.is_word(known.keyword)) {
+      if (begun().is_word(known.keyword)) {
         (this->*known.read)();
         return;
       }
     }
-    fail(begun_.line, fmt::format("'{}' begins no DBC statement: remove it, or mend the statement before it",
-                                  shown(begun_.text)));
+    fail(begun().line, fmt::format("'{}' begins no DBC statement: remove it, or mend the statement before it",
+                                   shown(begun().text)));
   }
 
   void version() {
@@ -156,27 +68,16 @@ class DbcParser {
     accept(';');
   }
 
-  // What follows tells a symbol of the list from the statement after it: another symbol, or the end of its line.
-  [[nodiscard]] bool is_new_symbol() const {
-    const DbcToken& symbol = tokens_.current();
-    const DbcToken& next = tokens_.following();
-    return symbol.is_word() && is_one_of(new_symbols, symbol.text) &&
-           (next.kind == DbcToken::Kind::end || next.line > symbol.line || next.is_word("BS_") ||
-            (next.is_word() && is_one_of(new_symbols, next.text)));
-  }
-
-  void new_symbol_list() {
+  void symbol_list() {
     expect(':');
-    while (is_new_symbol()) {
-      tokens_.take();
-    }
+    symbols();
   }
 
   // The bit rate and its two registers, long out of use.
   void bit_timing() {
     expect(':');
-    if (begins_with_digit(tokens_.current())) {
-      tokens_.take();
+    if (begins_with_digit(current())) {
+      take();
       if (accept(':')) {
         word("a register");
         expect(',');
@@ -186,20 +87,13 @@ class DbcParser {
     accept(';');
   }
 
-  // Two keywords are names too: what follows tells.
-  [[nodiscard]] bool begins_statement() const {
-    const DbcToken& token = tokens_.current();
-    return is_keyword(token) || (token.is_word("VERSION") && tokens_.following().is_text()) ||
-           (token.is_word("FILTER") && begins_with_digit(tokens_.following()));
-  }
-
   void nodes() {
     expect(':');
-    while (tokens_.current().is_word() && !begins_statement()) {
-      if (begins_with_digit(tokens_.current())) {
+    while (current().is_word() && !begins_statement()) {
+      if (begins_with_digit(current())) {
         fail_here("a node's name");
       }
-      tokens_.take();
+      take();
     }
   }
 
@@ -207,33 +101,33 @@ class DbcParser {
     const std::uint32_t id = identifier();
     const DbcToken name = word("a name");
     expect(':');
-    const auto bytes = number<std::int64_t>("a number of bytes");
-    if (!tokens_.current().is_word() || is_keyword(tokens_.current())) {
-      fail(begun_.line, fmt::format("message {} has no sender: write its node after the length, or {}",
-                                    shown(name.text), no_node));
+    const auto bytes = whole_number("a number of bytes");
+    if (!current().is_word() || is_dbc_keyword(current())) {
+      fail(begun().line, fmt::format("message {} has no sender: write its node after the length, or {}",
+                                     shown(name.text), no_node));
     }
     const DbcToken sender = word("a sender");
     has_message_ = true;
     if ((id & ~extended_identifier_bit) == no_message && name.text == no_message_name) {
       return;
     }
-    const DbcMessage message{std::string(name.text), std::string(sender.text), bytes, begun_.line};
+    const DbcMessage message{std::string(name.text), std::string(sender.text), bytes, begun().line};
     if (const auto [there, is_new] = file_.messages.try_emplace(id, message); !is_new) {
-      fail(begun_.line,
+      fail(begun().line,
            fmt::format("identifier {} is there twice, first in line {}: give each message its own", id,
                        there->second.line));
     }
     if (file_.messages.size() > most_dbc_messages) {
-      fail(begun_.line, fmt::format("more than {} messages: split the file", most_dbc_messages));
+      fail(begun().line, fmt::format("more than {} messages: split the file", most_dbc_messages));
     }
   }
 
   void signal() {
     if (!has_message_) {
-      fail(begun_.line, "a signal (SG_) before every message: move it under its BO_");
+      fail(begun().line, "a signal (SG_) before every message: move it under its BO_");
     }
     word("a name");
-    if (tokens_.current().is_word()) {
+    if (current().is_word()) {
       word("a multiplexer");
     }
     expect(':');
@@ -242,36 +136,13 @@ class DbcParser {
     word("a length");
     expect('@');
     word("a byte order");
-    if (!tokens_.current().is_mark('(')) {
+    if (!current().is_mark('(')) {
       word("a sign");
     }
     pair_in('(', ',', ')');
     pair_in('[', '|', ']');
     text("a unit");
     receivers();
-  }
-
-  void pair_in(char open, char between, char close) {
-    expect(open);
-    word("a number");
-    expect(between);
-    word("a number");
-    expect(close);
-  }
-
-  // The first may be in a line of its own; another follows a comma, or in the same line: else it is a statement.
-  void receivers() {
-    bool may_follow = true;
-    int line = 0;
-    while (true) {
-      const DbcToken& next = tokens_.current();
-      const bool is_name = next.is_word() && !begins_statement();
-      if (!next.is_mark(',') && (!is_name || (!may_follow && next.line != line))) {
-        return;
-      }
-      may_follow = !is_name;
-      line = tokens_.take().line;
-    }
   }
 
   // What a comment or a value is about; nothing: the file. The identifier, if it is a message.
@@ -299,8 +170,8 @@ class DbcParser {
     DbcDefinition definition;
     if (name.text == "ENUM") {
       definition.type = DbcDefinition::Type::choice;
-      while (tokens_.current().is_text()) {
-        definition.choices.emplace_back(tokens_.take().text);
+      while (current().is_text()) {
+        definition.choices.emplace_back(take().text);
         accept(',');
       }
     } else if (name.text == "STRING") {
@@ -309,7 +180,7 @@ class DbcParser {
       definition.type = name.text == "INT"   ? DbcDefinition::Type::whole
                         : name.text == "HEX" ? DbcDefinition::Type::hex
                                              : DbcDefinition::Type::real;
-      if (!tokens_.current().is_mark(';')) {
+      if (!current().is_mark(';')) {
         word("a smallest value");
         word("a greatest value");
       }
@@ -328,13 +199,13 @@ class DbcParser {
     }
     const std::string name(text("an attribute's name in quotes").text);
     DbcDefinition definition = type();
-    if (!is_one_of(dbc_attribute::all, name)) {
+    if (!is_read(name)) {
       return;
     }
     if (!of_messages) {
       file_.defined_elsewhere.insert(name);
     } else if (!file_.definitions.try_emplace(name, std::move(definition)).second) {
-      fail(begun_.line, fmt::format("attribute {} of messages is defined twice: remove one", name));
+      fail(begun().line, fmt::format("attribute {} of messages is defined twice: remove one", name));
     }
   }
 
@@ -356,7 +227,7 @@ class DbcParser {
     const std::string name(text("an attribute's name in quotes").text);
     const DbcValue given = value();
     expect(';');
-    if (is_one_of(dbc_attribute::all, name)) {
+    if (is_read(name)) {
       take_value(file_.defaults, name, given);
     }
   }
@@ -372,7 +243,7 @@ class DbcParser {
     const auto id = object();
     const DbcValue given = value();
     expect(';');
-    if (id && (*id & ~extended_identifier_bit) != no_message && is_one_of(dbc_attribute::all, name)) {
+    if (id && (*id & ~extended_identifier_bit) != no_message && is_read(name)) {
       take_value(file_.values[*id], name, given);
     }
   }
@@ -394,13 +265,7 @@ class DbcParser {
     expect(';');
   }
 
-  void named_values() {
-    while (!tokens_.current().is_mark(';')) {
-      word("a number");
-      text("a text");
-    }
-    expect(';');
-  }
+  void rest() { up_to_semicolon(); }
 
   void value_table() {
     word("a name");
@@ -410,31 +275,19 @@ class DbcParser {
   // Of a signal (identifier and name) or of an environment variable (name).
   void value_names() {
     word("an identifier or a name");
-    if (!tokens_.following().is_text() && !tokens_.current().is_mark(';')) {
+    if (!following().is_text() && !current().is_mark(';')) {
       word("a signal");
     }
     named_values();
   }
 
-  void up_to_semicolon() {
-    while (!tokens_.current().is_mark(';')) {
-      if (tokens_.current().kind == DbcToken::Kind::end || begins_statement()) {
-        fail_here("';'");
-      }
-      tokens_.take();
-    }
-    expect(';');
-  }
-
-  DbcScanner tokens_;
   DbcFile file_;
-  DbcToken begun_;  // the keyword of the statement that is read
   bool has_message_ = false;
 };
 
 const std::array<DbcParser::Statement, 31> DbcParser::statements = {{
     {"VERSION", &DbcParser::version},
-    {"NS_", &DbcParser::new_symbol_list},
+    {"NS_", &DbcParser::symbol_list},
     {"BS_", &DbcParser::bit_timing},
     {"BU_", &DbcParser::nodes},
     {"BO_", &DbcParser::message},
@@ -447,23 +300,23 @@ const std::array<DbcParser::Statement, 31> DbcParser::statements = {{
     {"BA_DEF_DEF_REL_", &DbcParser::relation_default},
     {"BA_REL_", &DbcParser::relation_value},
     {"BA_DEF_SGTYPE_", &DbcParser::relation_definition},
-    {"BA_SGTYPE_", &DbcParser::up_to_semicolon},
+    {"BA_SGTYPE_", &DbcParser::rest},
     {"VAL_", &DbcParser::value_names},
     {"VAL_TABLE_", &DbcParser::value_table},
     {"SGTYPE_VAL_", &DbcParser::value_table},
-    {"BO_TX_BU_", &DbcParser::up_to_semicolon},
-    {"SIG_GROUP_", &DbcParser::up_to_semicolon},
-    {"SIG_VALTYPE_", &DbcParser::up_to_semicolon},
-    {"SIGTYPE_VALTYPE_", &DbcParser::up_to_semicolon},
-    {"SIG_TYPE_REF_", &DbcParser::up_to_semicolon},
-    {"SG_MUL_VAL_", &DbcParser::up_to_semicolon},
-    {"SGTYPE_", &DbcParser::up_to_semicolon},
-    {"EV_", &DbcParser::up_to_semicolon},
-    {"EV_DATA_", &DbcParser::up_to_semicolon},
-    {"ENVVAR_DATA_", &DbcParser::up_to_semicolon},
-    {"CAT_DEF_", &DbcParser::up_to_semicolon},
-    {"CAT_", &DbcParser::up_to_semicolon},
-    {"FILTER", &DbcParser::up_to_semicolon},
+    {"BO_TX_BU_", &DbcParser::rest},
+    {"SIG_GROUP_", &DbcParser::rest},
+    {"SIG_VALTYPE_", &DbcParser::rest},
+    {"SIGTYPE_VALTYPE_", &DbcParser::rest},
+    {"SIG_TYPE_REF_", &DbcParser::rest},
+    {"SG_MUL_VAL_", &DbcParser::rest},
+    {"SGTYPE_", &DbcParser::rest},
+    {"EV_", &DbcParser::rest},
+    {"EV_DATA_", &DbcParser::rest},
+    {"ENVVAR_DATA_", &DbcParser::rest},
+    {"CAT_DEF_", &DbcParser::rest},
+    {"CAT_", &DbcParser::rest},
+    {"FILTER", &DbcParser::rest},
 }};
 
 }  // namespace

@@ -40,17 +40,11 @@ bool contains_any(std::string_view text, std::initializer_list<std::string_view>
                      [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
 
-template <class Number>
-std::optional<Number> number_in(std::string_view text, int base) {
+template <class Number, class... Format>
+std::optional<Number> number_in(std::string_view text, Format... format) {
   Number value{};
   const char* end = text.data() + text.size();
-  const auto [stop, error] = [&] {
-    if constexpr (std::is_integral_v<Number>) {
-      return std::from_chars(text.data(), end, value, base);
-    } else {
-      return std::from_chars(text.data(), end, value);
-    }
-  }();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, format...);
   return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
 }
 
@@ -116,7 +110,6 @@ class MessageReading {
     fail_dbc(file_.name, line, fmt::format("message {}: {}", shown(message_.name), what));
   }
   [[noreturn]] void fail(const std::string& what) const { fail(message_.line, what); }
-
   [[nodiscard]] std::optional<Said> said(std::string_view attribute) const {
     if (const auto values = file_.values.find(id_); values != file_.values.end()) {
       if (const auto own = values->second.find(attribute); own != values->second.end()) {
@@ -138,7 +131,7 @@ class MessageReading {
       return {value.text, own, value.line};
     }
     const auto& choices = definition->second.choices;
-    const auto index = number_in<std::size_t>(value.text, 10);
+    const auto index = number_in<std::size_t>(value.text);
     if (!value.is_text && index && *index < choices.size()) {
       return {choices[*index], own, value.line};
     }
@@ -156,12 +149,10 @@ class MessageReading {
     const bool is_hex = definition != file_.definitions.end() &&
                         definition->second.type == DbcDefinition::Type::hex &&
                         (said.text.starts_with("0x") || said.text.starts_with("0X"));
-    std::optional<double> value;
-    if (is_hex) {
-      value = number_in<std::uint64_t>(std::string_view(said.text).substr(2), 16);
-    } else {
-      value = number_in<double>(std::string_view(said.text).substr(said.text.starts_with('+') ? 1 : 0), 10);
-    }
+    const std::size_t prefix = is_hex ? 2 : said.text.starts_with('+') ? 1 : 0;
+    const std::string_view digits = std::string_view(said.text).substr(prefix);
+    const auto format = is_hex ? std::chars_format::hex : std::chars_format::general;
+    const auto value = number_in<double>(digits, format);
     if (!value || !std::isfinite(*value)) {
       fail(said.line, fmt::format("{} '{}' is no number: give one", attribute, shown(said.text)));
     }
@@ -175,7 +166,7 @@ class MessageReading {
 
   [[nodiscard]] std::optional<Said> send_type() const {
     auto type = said(dbc_attribute::send_type);
-    if (type && number_in<double>(type->text, 10)) {
+    if (type && number_in<double>(type->text)) {
       fail(type->line, fmt::format("nothing says what GenMsgSendType {} is: define it, as BA_DEF_ BO_ "
                                    "\"GenMsgSendType\" ENUM \"Cyclic\",\"OnEvent\";",
                                    shown(type->text)));
@@ -212,7 +203,7 @@ class MessageReading {
     if (!named) {
       return "";
     }
-    const auto index = number_in<std::size_t>(named->text, 10);
+    const auto index = number_in<std::size_t>(named->text);
     std::string name(index && *index < frame_formats.size() ? frame_formats[*index] : named->text);
     if (!contains_any(name, {"fd"}) && name != "StandardCAN" && name != "ExtendedCAN" && name != "J1939PG") {
       fail(named->line,

@@ -239,24 +239,6 @@ Drawn draw_formats(Random& random) {
   return drawn;
 }
 
-// With identifiers of 11 bits that go in the same order.
-std::vector<BusMessage> renumbered(std::vector<BusMessage> messages) {
-  const auto rank = [](const BusMessage& message) {
-    return arbitration_rank(message.id, message.format.extended);
-  };
-  std::vector<std::uint32_t> ranks;
-  ranks.reserve(messages.size());
-  for (const BusMessage& message : messages) {
-    ranks.push_back(rank(message));
-  }
-  std::sort(ranks.begin(), ranks.end());
-  for (BusMessage& message : messages) {
-    const auto place = std::lower_bound(ranks.begin(), ranks.end(), rank(message));
-    message.id = static_cast<std::uint32_t>(place - ranks.begin());
-  }
-  return messages;
-}
-
 // The simulated bus knows identifiers of 11 bits and one bit rate: it counts all time in bits of the faster one.
 TEST(ResponseTime, NoSimulatedBusOfAllFormatsIsBeyondTheBound) {
   constexpr std::int64_t horizon_ns = 100 * ms;

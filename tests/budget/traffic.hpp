@@ -49,6 +49,24 @@ inline std::vector<std::vector<Event>> critical_instant(const std::vector<BusMes
   return traffic;
 }
 
+// The messages with identifiers of 11 bits that go in the same order.
+inline std::vector<BusMessage> renumbered(std::vector<BusMessage> messages) {
+  const auto rank = [](const BusMessage& message) {
+    return arbitration_rank(message.id, message.format.extended);
+  };
+  std::vector<std::uint32_t> ranks;
+  ranks.reserve(messages.size());
+  for (const BusMessage& message : messages) {
+    ranks.push_back(rank(message));
+  }
+  std::sort(ranks.begin(), ranks.end());
+  for (BusMessage& message : messages) {
+    const auto place = std::lower_bound(ranks.begin(), ranks.end(), rank(message));
+    message.id = static_cast<std::uint32_t>(place - ranks.begin());
+  }
+  return messages;
+}
+
 // The longest response of each message, from the event to the end of the intermission. `bits_of` gives a
 // frame's length on the wire.
 inline std::vector<std::int64_t> longest_responses(
