@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "firmware/can/codec.hpp"
 #include "firmware/can/messages.hpp"
 #include "firmware/loop/bus.hpp"
 #include "firmware/ports/bare_metal/board_clock.hpp"
