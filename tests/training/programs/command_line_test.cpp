@@ -172,7 +172,7 @@ TEST_F(CommandLine, EvaluateRefusesBadInput) {
   write_to(path("cut.safetensors"), whole.substr(0, whole.size() - 100));
   Parameters broken = some_parameters(1);
   broken.values(100) = std::numeric_limits<float>::quiet_NaN();
-  save_model({.parameters = broken, .metadata = {}}, path("nan.safetensors"));
+  write_to(path("nan.safetensors"), write_safetensors({.tensors = tensors_of(broken), .metadata = {}}));
   const auto evaluate_with = [&](const std::string& file, const std::string& more) {
     return fmt::format("{} --model {} {}", STRIKER_EVALUATE, file, more);
   };
