@@ -19,16 +19,19 @@ constexpr auto plain_period = 5s;
 
 }  // namespace
 
-ProgressLine::ProgressLine(std::string unit, std::int64_t total, std::int64_t done_before)
+ProgressLine::ProgressLine(std::string unit, std::int64_t total, std::int64_t done_before,
+                           std::chrono::milliseconds quiet)
     : unit_(std::move(unit)),
       total_(total),
       done_before_(done_before),
       terminal_(isatty(STDERR_FILENO) == 1),
+      quiet_(quiet),
       start_(Clock::now()),
-      next_(start_) {}
+      next_(start_ + quiet) {}
 
 bool ProgressLine::due(std::int64_t done) const {
-  return done >= total_ || Clock::now() >= next_;
+  const bool last = done >= total_ && (shown_ || quiet_ == 0ms);
+  return last || Clock::now() >= next_;
 }
 
 void ProgressLine::show(std::int64_t done, const std::string& detail) {

@@ -11,8 +11,10 @@ namespace striker::host {
 
 class ProgressLine {
  public:
-  // "unit 12/5000  400 unit/s  12 s left  detail". Work that was done before it began counts for no rate.
-  ProgressLine(std::string unit, std::int64_t total, std::int64_t done_before = 0);
+  // "unit 12/5000  400 unit/s  12 s left  detail". Work that was done before it began counts for no rate. Work that
+  // ends within `quiet` shows nothing.
+  ProgressLine(std::string unit, std::int64_t total, std::int64_t done_before = 0,
+               std::chrono::milliseconds quiet = {});
 
   // Is it time for another line? Ask before making up a costly detail.
   [[nodiscard]] bool due(std::int64_t done) const;
@@ -26,6 +28,7 @@ class ProgressLine {
   std::int64_t total_;
   std::int64_t done_before_;
   bool terminal_;
+  std::chrono::milliseconds quiet_;
   bool shown_ = false;
   Clock::time_point start_;
   Clock::time_point next_;

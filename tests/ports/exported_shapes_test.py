@@ -25,7 +25,8 @@ def export(tools, shape, directory):
     os.makedirs(directory, exist_ok=True)
     for command in (
         [os.path.join(tools, "striker-train"), "--config", os.path.join(image_test.ROOT, "training/configs/paper.toml"),
-         "--seed", "1", "--out", os.path.join(directory, shape), *[word for one in settings for word in ("--set", one)]],
+         "--seed", "1", "--out", os.path.join(directory, shape), "--force",
+         *[word for one in settings for word in ("--set", one)]],
         [os.path.join(tools, "striker-export"), os.path.join(directory, shape, "model.safetensors"), "-o", header,
          "--name", "shape_" + shape.replace("-", "_")],
     ):

@@ -15,7 +15,8 @@ namespace {
 constexpr std::uint64_t calibration_seed = 1;
 
 template <Environment E>
-std::vector<RawState> states_met(E& env, GreedyRule& greedy, std::size_t actions, int first, int count) {
+std::vector<RawState> states_met(E& env, GreedyRule& greedy, std::size_t actions, int first, int count,
+                                 const EpisodePlayed& played) {
   std::vector<RawState> states;
   const auto collect = [&states](const E& seen) {
     if (!seen.success()) {
@@ -33,18 +34,21 @@ std::vector<RawState> states_met(E& env, GreedyRule& greedy, std::size_t actions
       collect(seen);
       return static_cast<int>(random.below(actions));
     });
+    played();
   }
   return states;
 }
 
 }  // namespace
 
-std::vector<RawState> calibration_play(const Parameters& parameters, TaskConfig task, int first, int count) {
+std::vector<RawState> calibration_play(const Parameters& parameters, TaskConfig task, int first, int count,
+                                       const EpisodePlayed& played) {
   task.physics = Physics::full;
   AnyEnvironment environment = make_environment(task);
   GreedyRule greedy(parameters);
-  return std::visit([&](auto& env) { return states_met(env, greedy, task.actions.size(), first, count); },
-                    environment);
+  return std::visit(
+      [&](auto& env) { return states_met(env, greedy, task.actions.size(), first, count, played); },
+      environment);
 }
 
 }  // namespace striker::training

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "training/export/comparison/reward_difference.hpp"
 #include "training/learner/network.hpp"
 #include "training/task/task_config.hpp"
 
@@ -12,7 +13,7 @@ namespace striker::training {
 // The states before the contact of `count` episodes each of greedy and of random play, among wheel bodies.
 // `first` numbers the episodes, which neither training nor evaluation meets (episode_numbers.hpp): different
 // numbers, other states.
-[[nodiscard]] std::vector<RawState> calibration_play(const Parameters& parameters, TaskConfig task, int first,
-                                                     int count);
+[[nodiscard]] std::vector<RawState> calibration_play(
+    const Parameters& parameters, TaskConfig task, int first, int count, const EpisodePlayed& played = [] {});
 
 }  // namespace striker::training

@@ -15,9 +15,9 @@ namespace striker::training {
 
 namespace {
 
-constexpr int calibration_plays = 150;
-constexpr int validation_plays = 150;
-constexpr int reward_episodes = 500;
+constexpr int calibration_plays = export_calibration_episodes / 2;
+constexpr int validation_plays = export_calibration_episodes - calibration_plays;
+constexpr int reward_episodes = export_episodes - export_calibration_episodes;
 
 Agreement compare(const Parameters& parameters, const StateInputs& inputs, const IntegerNetwork& network,
                   const std::vector<RawState>& states) {
@@ -31,17 +31,18 @@ Agreement compare(const Parameters& parameters, const StateInputs& inputs, const
 
 }  // namespace
 
-Export export_model(const Model& model, const TaskConfig& task, WeightType weights) {
+Export export_model(const Model& model, const TaskConfig& task, WeightType weights,
+                    const EpisodePlayed& played) {
   require_firmware_serves(task);
   const Parameters& parameters = model.parameters;
-  const std::vector<RawState> calibration = calibration_play(parameters, task, 0, calibration_plays);
+  const std::vector<RawState> calibration = calibration_play(parameters, task, 0, calibration_plays, played);
   const std::vector<RawState> validation =
-      calibration_play(parameters, task, calibration_plays, validation_plays);
+      calibration_play(parameters, task, calibration_plays, validation_plays, played);
   Export exported;
   exported.calibration_states = calibration.size();
   exported.quantised = quantise(parameters, task.inputs, calibration, weights);
   exported.agreement = compare(parameters, task.inputs, exported.quantised.network, validation);
-  exported.reward = reward_difference(parameters, exported.quantised.network, task, reward_episodes);
+  exported.reward = reward_difference(parameters, exported.quantised.network, task, reward_episodes, played);
 
   ExportedPolicy& policy = exported.policy;
   const auto configuration = model.metadata.find("configuration");

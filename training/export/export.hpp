@@ -22,11 +22,18 @@ struct Export {
   RewardDifference reward;
 };
 
+// Of episodes that an export plays, each twice: for calibration states and golden vectors greedily and at random; all
+// of them, of which the others compare the two networks' rewards. 3 to 10 s.
+inline constexpr int export_calibration_episodes = 300;
+inline constexpr int export_episodes = export_calibration_episodes + 500;
+
 // Plays episodes that neither training nor evaluation meets, greedily and at random, for calibration states
 // and golden vectors. Throws std::runtime_error for a model that the firmware could not
-// serve (firmware_limits.hpp) or that cannot be quantised (quantise.hpp).
-[[nodiscard]] Export export_model(const Model& model, const TaskConfig& task,
-                                  WeightType weights = WeightType::int16);
+// serve (firmware_limits.hpp) or that cannot be quantised (quantise.hpp). Calls `played` after each of
+// export_episodes.
+[[nodiscard]] Export export_model(
+    const Model& model, const TaskConfig& task, WeightType weights = WeightType::int16,
+    const EpisodePlayed& played = [] {});
 
 // The name of a policy whose header is written to `file`: its name without extension. Throws
 // std::runtime_error if that is no lower-case C++ identifier.

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 namespace striker::training {
 
@@ -127,6 +128,54 @@ std::optional<IntegerLayer> integer_layer(const FloatLayer& layer, const Eigen::
   return integers;
 }
 
+// One number of a layer: weights(row, column), or biases(row) if `column` is its number of inputs.
+struct Culprit {
+  Eigen::Index row = 0;
+  Eigen::Index column = 0;
+  double times_too_large = 0.0;
+};
+
+// What keeps a layer from fitting at the least scale there is, 2^exponent: the number that is the farthest beyond
+// its type, or else the largest share of the largest sum.
+Culprit culprit_of(const FloatLayer& layer, double weight_limit, int exponent, int input_exponent) {
+  const Eigen::Index columns = layer.weights.cols();
+  const double greatest_input = static_cast<double>(greatest_activation);
+  Eigen::MatrixXd share(layer.weights.rows(), columns + 1);
+  share << layer.weights.cwiseAbs() * std::max(greatest_input / greatest_bias, 1.0 / weight_limit),
+      layer.biases.cwiseAbs() * std::ldexp(1.0 / greatest_bias, input_exponent);
+  share *= std::ldexp(1.0, exponent);
+  Culprit culprit;
+  culprit.times_too_large = share.maxCoeff(&culprit.row, &culprit.column);
+  return culprit;
+}
+
+// How to come by a layer that fits.
+std::string way_out(bool hidden, bool dead, Eigen::Index states) {
+  if (hidden && dead) {
+    return fmt::format(
+        "that neuron was active in none of {} states of play: with its weights and its bias set to 0 the network "
+        "chooses the same in all of them",
+        states);
+  }
+  return hidden ? "train with a lower optimiser.learning_rate, or divide that neuron's weights and bias by a "
+                  "power of two and multiply by it the weights that read the neuron"
+                : "train with a lower optimiser.learning_rate";
+}
+
+[[noreturn]] void refuse_layer(std::size_t number, const FloatLayer& layer, const Culprit& culprit,
+                               const Eigen::MatrixXd& inputs, WeightType type) {
+  const auto [row, column, times] = culprit;
+  const bool bias = column == layer.weights.cols();
+  const double value = bias ? layer.biases(row) : layer.weights(row, column);
+  const double most = ((layer.weights.row(row) * inputs).array() + layer.biases(row)).maxCoeff();
+  throw std::runtime_error(fmt::format(
+      "layer {} cannot be quantised to {} and 32-bit sums: tensor {}.{}, row {}{}, is {:g}, {}; {}", number,
+      name_of(type), 2 * (number - 1), bias ? "bias" : "weight", row,
+      bias ? "" : fmt::format(", column {}", column), value,
+      times > 1.0 ? fmt::format("{:.3g} times what fits", times) : "the most of a sum that does not fit",
+      way_out(number < static_cast<std::size_t>(layer_count), most <= 0.0, inputs.cols())));
+}
+
 // Appends the layer at the greatest weight scale that passes the proof; returns that scale's exponent.
 int append_layer(IntegerNetwork& network, const FloatLayer& layer, const Eigen::MatrixXd& inputs,
                  int input_exponent, int output_exponent) {
@@ -139,9 +188,9 @@ int append_layer(IntegerNetwork& network, const FloatLayer& layer, const Eigen::
   for (;; --exponent) {
     const int shift = input_exponent + exponent - output_exponent;
     if (shift < least_shift) {
-      throw std::runtime_error(
-          fmt::format("layer {} cannot be quantised: its weights are too large for {} and 32-bit sums",
-                      network.layers.size() + 1, name_of(network.weights)));
+      refuse_layer(network.layers.size() + 1, layer,
+                   culprit_of(layer, limit, least_shift + output_exponent - input_exponent, input_exponent),
+                   inputs, network.weights);
     }
     const auto integers = integer_layer(layer, feedback, limit, exponent, input_exponent, shift);
     if (!integers) {

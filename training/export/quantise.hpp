@@ -31,7 +31,8 @@ struct Quantised {
   std::vector<LayerReport> layers;
 };
 
-// Throws std::runtime_error if no scale fits (weights so large that the proof fails at every scale).
+// Throws std::runtime_error if no scale fits (weights so large that the proof fails at every scale): it names layer,
+// tensor, row and value, and what to do. Tensors are numbered as in a model's file: 0, 2 and 4.
 [[nodiscard]] Quantised quantise(const Parameters& parameters, const StateInputs& inputs,
                                  std::span<const RawState> calibration,
                                  WeightType weights = WeightType::int16);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sil/world/random_streams.hpp"
+#include "training/learner/divergence.hpp"
 
 namespace striker::training {
 
@@ -85,6 +86,13 @@ Learner::Learner(const LearnerSetup& setup, std::uint64_t seed)
   round_online();
 }
 
+void Learner::begin_from(const Parameters& parameters) {
+  state_.online = parameters;
+  state_.target = parameters;
+  state_.average = parameters;
+  round_online();
+}
+
 void Learner::resume(LearnerState state) {
   state_ = std::move(state);
   round_online();
@@ -110,7 +118,8 @@ int Learner::choose(const Features& features, double epsilon) {
   return actor_.choose(played(), features);
 }
 
-void Learner::remember(const Features& features, int action, double reward, const Features& next, bool end) {
+void Learner::remember(const Features& features, int action, double reward, const Features& next, bool end,
+                       bool truncated) {
   const auto push = [this](const Transition& transition) {
     const Eigen::Index place = state_.replay.push(transition);
     if (config_.prioritised) {
@@ -120,7 +129,7 @@ void Learner::remember(const Features& features, int action, double reward, cons
   if (config_.cut_at_exploration && exploring_) {
     n_step_.cut(features, push);
   }
-  n_step_.take(features, action, reward, next, end, push);
+  n_step_.take(features, action, reward, next, end, push, truncated && config_.time_limit);
   ++state_.decisions;
 }
 
@@ -131,7 +140,10 @@ bool Learner::warm() const {
 // One gradient step; adds the batch's figures to the row.
 void Learner::learn(EpisodeRow& row) {
   sample();
-  row.loss += differentiate(row);
+  const double loss = differentiate(row);
+  require_finite(std::isfinite(row.q), "a Q value", row.episode);
+  require_finite(std::isfinite(loss), "the loss", row.episode);
+  row.loss += loss;
   backward(played(), sampled_, pass_, q_gradient_, gradient_);
   if (config_.clip_norm > 0.0) {
     const float norm = gradient_.norm();
@@ -139,12 +151,26 @@ void Learner::learn(EpisodeRow& row) {
     gradient_ *= norm > limit ? limit / norm : 1.0F;
   }
   state_.adam.step(state_.online.values, gradient_, row.learning_rate);
+  require_finite(all_finite(state_.online.values), "a weight", row.episode);
   round_online();
   ++state_.gradient_steps;
   if (config_.prioritised) {
     update_priorities();
   }
   follow();
+}
+
+void Learner::require_finite(bool finite, const char* what, int episode) const {
+  if (!finite) {
+    throw Divergence(what, episode, state_.gradient_steps + 1);
+  }
+}
+
+// Those that no gradient step looks at, too.
+void Learner::require_finite_weights(int episode) const {
+  const bool finite = all_finite(state_.online.values) && all_finite(state_.target.values) &&
+                      all_finite(state_.average.values);
+  require_finite(finite, "a weight", episode);
 }
 
 void Learner::sample() {

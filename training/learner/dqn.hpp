@@ -39,19 +39,24 @@ class Learner {
   Learner(const LearnerSetup& setup, std::uint64_t seed);
 
   // Plays training episode `episode` in `env`, which has been reset to its start, and learns from it: up to
-  // `end`, past which it never looks.
+  // `end`, past which it never looks. Throws Divergence (divergence.hpp) as soon as a loss, a Q value or a weight
+  // is not finite: after an episode that it returned, all weights are.
   template <Environment E>
   EpisodeRow play(E& env, int episode);
 
   // What is learnt so far: the network that the model will hold.
   [[nodiscard]] Parameters result() const;
 
+  // Before the first episode: begins from these weights, of the setup's shape, instead of random ones.
+  void begin_from(const Parameters& parameters);
+
   // Between two episodes: all that goes on. `resume` takes the state of a learner of the same setup.
   [[nodiscard]] const LearnerState& state() const { return state_; }
   void resume(LearnerState state);
 
   // For benchmarks: a gradient step by itself.
-  void remember(const Features& features, int action, double reward, const Features& next, bool end);
+  void remember(const Features& features, int action, double reward, const Features& next, bool end,
+                bool truncated = false);
   void learn(EpisodeRow& row);
 
  private:
@@ -63,6 +68,8 @@ class Learner {
   [[nodiscard]] float value_of_next(Eigen::Index i) const;
   void weigh_samples();
   void update_priorities();
+  void require_finite(bool finite, const char* what, int episode) const;
+  void require_finite_weights(int episode) const;
   void follow();
   void round_online();
   // The online network as it plays and is differentiated.
@@ -104,12 +111,13 @@ EpisodeRow Learner::play(E& env, int episode) {
     const StepResult result = env.step(action);
     end = result.end;
     next_features_ = env.features();
-    remember(features_, action, result.reward, next_features_, end);
+    remember(features_, action, result.reward, next_features_, end, result.truncated);
     features_.swap(next_features_);
     for (int i = 0; warm() && i < config_.gradient_steps; ++i) {
       learn(row);
     }
   }
+  require_finite_weights(episode);
   row.reward = env.outcome().reward;
   row.success = env.success();
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, state_.gradient_steps - steps_before));

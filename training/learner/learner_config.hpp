@@ -17,8 +17,9 @@ struct LearnerConfig {
   double gamma = 0.0;               // discount of a reward one decision later, 0 to 1
   int n_step = 0;                   // decisions whose rewards are summed before the target network's value
   bool cut_at_exploration = false;  // that sum ends before a random action (Watkins's rule)
-  bool double_dqn = false;        // the online network chooses the next action, the target network values it
-  bool huber = false;             // linear loss beyond a TD error of 1
+  bool time_limit = false;  // the last decision's next state has a value, too; `learner.time_limit` in TOML
+  bool double_dqn = false;  // the online network chooses the next action, the target network values it
+  bool huber = false;       // linear loss beyond a TD error of 1
   bool augment_mirrored = false;  // half of the samples are seen in a mirror; `learner.mirror` in TOML
   int batch = 0;                  // transitions a gradient step
   int replay_size = 0;            // transitions

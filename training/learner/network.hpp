@@ -56,6 +56,11 @@ class Parameters {
   std::array<Place, layer_count> places_{};
 };
 
+// Are all of them finite? Costs a pass over them at the memory's speed (0 times NaN or infinity is NaN).
+[[nodiscard]] inline bool all_finite(const Eigen::VectorXf& values) {
+  return (0.0F * values).sum() == 0.0F;
+}
+
 // The same function without the dueling head, which folds into the last layer.
 [[nodiscard]] Parameters folded(const Parameters& parameters);
 

@@ -18,7 +18,7 @@ struct Transition {
   int action = 0;
   float reward = 0.0F;
   Features next;
-  float discount = 0.0F;  // gamma^n; 0 where the episode ended
+  float discount = 0.0F;  // gamma^n; 0 where the episode ended, but by its time limit
 };
 
 // A transition is a column of one matrix, so that a sample is one stretch of memory and a checkpoint one
@@ -67,9 +67,11 @@ class NStep {
     open_.resize(static_cast<std::size_t>(n), {.state = Features(inputs), .next = Features(inputs)});
   }
 
-  // Hands every transition that is complete to `push`; at an episode's end that is all of them.
+  // Hands every transition that is complete to `push`; at an episode's end that is all of them. `truncated`: it ended
+  // in a state that still has a value.
   template <class Push>
-  void take(const Features& state, int action, double reward, const Features& next, bool end, Push push) {
+  void take(const Features& state, int action, double reward, const Features& next, bool end, Push push,
+            bool truncated = false) {
     Transition& opened = open_[(first_ + count_) % open_.size()];
     opened.state = state;
     opened.action = action;
@@ -79,7 +81,7 @@ class NStep {
     for (std::size_t i = 0; i < count_; ++i) {
       Transition& transition = open_[(first_ + i) % open_.size()];
       transition.reward += transition.discount * static_cast<float>(reward);
-      transition.discount = end ? 0.0F : transition.discount * gamma_;
+      transition.discount = end && !truncated ? 0.0F : transition.discount * gamma_;
     }
     while (count_ == open_.size() || (end && count_ > 0)) {
       hand_over(next, push);

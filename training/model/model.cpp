@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <stdexcept>
-#include <string_view>
 
 #include "firmware/host/files.hpp"
 #include "training/model/hash.hpp"
+#include "training/model/network_names.hpp"
 
 namespace striker::training {
 
@@ -17,84 +15,46 @@ namespace {
 
 using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// "q_net.0.weight" is layer 0 of the network "q_net.".
-struct LayerName {
-  std::string network;
-  int number = -1;
-  bool weight = false;
-};
-
-bool read_name(const std::string& name, LayerName& layer) {
-  for (const std::string_view part : {".weight", ".bias"}) {
-    if (!std::string_view(name).ends_with(part)) {
-      continue;
-    }
-    const std::string_view stem = std::string_view(name).substr(0, name.size() - part.size());
-    const std::size_t digits = stem.find_last_not_of("0123456789") + 1;  // npos + 1 is 0
-    const auto [end, error] = std::from_chars(stem.data() + digits, stem.data() + stem.size(), layer.number);
-    layer.network = stem.substr(0, digits);
-    layer.weight = part == ".weight";
-    return error == std::errc{} && end == stem.data() + stem.size();
-  }
-  return false;
+[[noreturn]] void refuse_shape(const Tensor& tensor, const std::string& file, const std::string& why) {
+  throw std::runtime_error(
+      fmt::format("{}: tensor {} has shape [{}]{}", file, tensor.name, fmt::join(tensor.shape, ", "), why));
 }
 
-struct LayerTensors {
-  const Tensor* weight = nullptr;
-  const Tensor* bias = nullptr;
-};
-
-using Layers = std::map<int, LayerTensors>;  // by number
-
-// The only network of the file that is no target network.
-Layers find_network(const std::vector<Tensor>& tensors, const std::string& file) {
-  std::map<std::string, Layers> networks;
-  for (const Tensor& tensor : tensors) {
-    LayerName name;
-    if (!read_name(tensor.name, name)) {
-      throw std::runtime_error(
-          fmt::format("{}: tensor {} is no layer of a network; the names are like 0.weight and 0.bias", file,
-                      tensor.name));
-    }
-    if (name.network.find("target") == std::string::npos) {
-      LayerTensors& layer = networks[name.network][name.number];
-      (name.weight ? layer.weight : layer.bias) = &tensor;
-    }
+// A weight is [outputs, inputs]; of the first layer (`inputs` 0) the inputs are what the weight says.
+void require_weight(const LayerTensors& layer, std::size_t inputs, const std::string& file) {
+  const Tensor& weight = *layer.weight;
+  const std::size_t outputs = layer.bias->values.size();
+  const bool table = weight.shape.size() == 2;
+  if (table && weight.shape[0] == outputs && (inputs == 0 || weight.shape[1] == inputs)) {
+    return;
   }
-  if (networks.size() != 1) {
-    std::string names;
-    for (const auto& [name, layers] : networks) {
-      names += fmt::format(" \"{}\"", name);
-    }
-    throw std::runtime_error(
-        fmt::format("{}: it holds {} networks ({} ), not one Q network", file, networks.size(), names));
+  const std::string wanted = inputs == 0 ? "inputs" : std::to_string(inputs);
+  if (table && weight.shape[1] == outputs && (inputs == 0 || weight.shape[0] == inputs)) {
+    refuse_shape(
+        weight, file,
+        fmt::format(", but {} has {} values: it is transposed; a weight is [outputs, inputs], as PyTorch "
+                    "has it, here [{}, {}]; save its transpose (Keras and Flax hold [inputs, outputs])",
+                    layer.bias->name, outputs, outputs, weight.shape[0]));
   }
-  return networks.begin()->second;
-}
-
-void require_shape(const Tensor& tensor, const std::vector<std::size_t>& shape, const std::string& file) {
-  if (tensor.shape != shape) {
-    throw std::runtime_error(fmt::format("{}: tensor {} has shape [{}], not [{}]", file, tensor.name,
-                                         fmt::join(tensor.shape, ", "), fmt::join(shape, ", ")));
-  }
+  refuse_shape(weight, file,
+               fmt::format(", not [{}, {}]: {} has {} values{}", outputs, wanted, layer.bias->name, outputs,
+                           inputs == 0 ? "" : fmt::format(", the layer before it {}", inputs)));
 }
 
 // The layers in order, checked to fit together.
-std::vector<LayerTensors> in_order(const Layers& layers, const std::string& file) {
+std::vector<LayerTensors> in_order(const NamedNetwork& network, const std::string& file) {
   std::vector<LayerTensors> ordered;
   std::size_t inputs = 0;
-  for (const auto& [number, layer] : layers) {
+  for (const auto& [number, layer] : network.layers) {
     if (layer.weight == nullptr || layer.bias == nullptr) {
-      throw std::runtime_error(fmt::format("{}: tensor {}.{} is missing", file, number,
+      throw std::runtime_error(fmt::format("{}: tensor {}{}.{} is missing", file, network.name, number,
                                            layer.weight == nullptr ? "weight" : "bias"));
     }
-    const std::size_t outputs = layer.bias->values.size();
-    if (ordered.empty() && layer.weight->shape.size() == 2) {
-      inputs = layer.weight->shape[1];
+    if (layer.bias->shape.size() != 1 || layer.bias->values.empty()) {
+      refuse_shape(*layer.bias, file, "; a bias is a list, one value an output");
     }
-    require_shape(*layer.weight, {outputs, inputs}, file);
-    require_shape(*layer.bias, {outputs}, file);
-    inputs = outputs;
+    require_weight(layer, inputs, file);
+    inputs = layer.bias->values.size();
     ordered.push_back(layer);
   }
   if (ordered.size() != layer_count) {
@@ -124,8 +84,9 @@ std::vector<Tensor> tensors_of(const Parameters& parameters) {
   return tensors;
 }
 
-Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& file) {
-  const std::vector<LayerTensors> layers = in_order(find_network(tensors, file), file);
+Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& file,
+                         const std::string& network) {
+  const std::vector<LayerTensors> layers = in_order(find_network(tensors, file, network), file);
   const auto outputs = [&layers](std::size_t layer) {
     return static_cast<int>(layers[layer].bias->values.size());
   };
@@ -143,12 +104,18 @@ Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& 
   return parameters;
 }
 
-Model load_model(const std::filesystem::path& file) {
+Model load_model(const std::filesystem::path& file, const std::string& network) {
   const SafeTensors content = read_safetensors(host::read_file(file), file.string());
-  return {.parameters = parameters_of(content.tensors, file.string()), .metadata = content.metadata};
+  return {.parameters = parameters_of(content.tensors, file.string(), network), .metadata = content.metadata};
 }
 
 void save_model(const Model& model, const std::filesystem::path& file) {
+  if (!all_finite(model.parameters.values)) {
+    throw std::runtime_error(
+        fmt::format("{}: not written: the network holds NaN or infinite weights; train anew with a lower "
+                    "optimiser.learning_rate",
+                    file.string()));
+  }
   host::write_file(file,
                    write_safetensors({.tensors = tensors_of(model.parameters), .metadata = model.metadata}));
 }

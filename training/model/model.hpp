@@ -19,17 +19,21 @@ namespace striker::training {
 struct Model {
   Parameters parameters;
   // What striker-train notes: "configuration" (the text, every key), "configuration_name", "seed",
-  // "identity", "episodes", and "mean_reward" where it was measured. A model from elsewhere may lack all.
+  // "identity", "episodes", "mean_reward" where it was measured, and "history" (RunState) where the
+  // configuration and the seed do not say all. A model from elsewhere may lack all.
   std::map<std::string, std::string> metadata;
 };
 
 // Errors as `read_safetensors`; also a missing or doubtful tensor, or layers that do not fit together.
-[[nodiscard]] Model load_model(const std::filesystem::path& file);
+// `network` names one of several networks in the file, by the first parts of its tensors' names (network_names.hpp).
+[[nodiscard]] Model load_model(const std::filesystem::path& file, const std::string& network = "");
+// Throws, and writes nothing, if a weight is not finite: no program would read it.
 void save_model(const Model& model, const std::filesystem::path& file);
 
 // The layers as tensors, and back; errors name `file`.
 [[nodiscard]] std::vector<Tensor> tensors_of(const Parameters& parameters);
-[[nodiscard]] Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& file);
+[[nodiscard]] Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& file,
+                                       const std::string& network = "");
 
 // FNV-1a of the weights, layer by layer as in the file; printed as 8 hexadecimal digits.
 [[nodiscard]] std::string model_identity(const Parameters& parameters);

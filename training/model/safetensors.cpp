@@ -9,7 +9,10 @@
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
+
+#include "training/model/file_kind.hpp"
 
 namespace striker::training {
 
@@ -26,6 +29,40 @@ static_assert(std::endian::native == std::endian::little, "tensors are copied as
   throw std::runtime_error(fmt::format("{}: {}; give a whole float32 safetensors model", file, why));
 }
 
+// That it is no safetensors file, and what it is instead if that is known.
+[[noreturn]] void refuse_format(std::string_view bytes, const std::string& file, const std::string& why) {
+  const std::string kind = foreign_kind(bytes);
+  if (!kind.empty()) {
+    throw std::runtime_error(fmt::format("{}: not safetensors, but {}", file, kind));
+  }
+  refuse(file, why);
+}
+
+// The header's JSON; discarded if it is none. JSON lets a name stand twice in an object, and parsers keep one of
+// the two: of tensors nobody could say which is meant.
+Json parse_header(std::string_view text, const std::string& file) {
+  std::vector<std::set<std::string>> names;  // of the objects that are open, by depth
+  std::string twice;
+  const auto look = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) {
+      names.resize(static_cast<std::size_t>(depth) + 1);
+      names.back().clear();
+    } else if (event == Json::parse_event_t::key) {
+      const auto& name = parsed.get_ref<const std::string&>();
+      names.resize(static_cast<std::size_t>(depth));
+      if (!names.back().insert(name).second && twice.empty()) {
+        twice = name;
+      }
+    }
+    return true;
+  };
+  Json header = Json::parse(text, look, false);
+  if (!header.is_discarded() && !twice.empty()) {
+    refuse(file, fmt::format("the header names {} twice, so that it is not clear which one is meant", twice));
+  }
+  return header;
+}
+
 struct Place {
   Tensor tensor;
   std::size_t begin = 0;
@@ -35,16 +72,19 @@ struct Place {
 Json header_of(std::string_view bytes, const std::string& file) {
   std::uint64_t length = 0;
   if (bytes.size() < length_bytes) {
-    refuse(file, "truncated: shorter than a safetensors header");
+    refuse_format(bytes, file, "truncated: shorter than a safetensors header");
   }
   std::memcpy(&length, bytes.data(), length_bytes);
   if (length > bytes.size() - length_bytes) {
-    refuse(file, fmt::format("truncated or not safetensors: a header of {} bytes in a file of {}", length,
-                             bytes.size()));
+    refuse_format(
+        bytes, file,
+        fmt::format("truncated or not safetensors: it begins with a header's length of {} bytes, and "
+                    "has {}",
+                    length, bytes.size()));
   }
-  Json header = Json::parse(bytes.substr(length_bytes, length), nullptr, false);
+  Json header = parse_header(bytes.substr(length_bytes, length), file);
   if (!header.is_object()) {
-    refuse(file, "not safetensors: the header is not a JSON object");
+    refuse_format(bytes, file, "not safetensors: the header is not a JSON object");
   }
   return header;
 }

@@ -10,9 +10,11 @@
 
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/files.hpp"
+#include "firmware/host/progress.hpp"
 #include "firmware/host/version.hpp"
 #include "sil/task/kick_report.hpp"
 #include "training/export/comparison/agreement.hpp"
+#include "training/export/comparison/optional_json.hpp"
 #include "training/model/model.hpp"
 #include "training/run/model_task.hpp"
 #include "training/task/kick_environment.hpp"
@@ -23,6 +25,7 @@ namespace {
 
 struct Options {
   std::filesystem::path model;
+  std::string network;
   int episodes = 0;
   std::uint64_t seed = 0;
   std::string pose = "origin";
@@ -45,10 +48,17 @@ int evaluate_play(const Options& options, const Model& model, TaskConfig task) {
   run.pose = options.pose;
   run.policy = model_identity(model.parameters);
   const auto start = std::chrono::steady_clock::now();
+  host::ProgressLine line("episode", options.episodes, 0, std::chrono::seconds(1));
+  double sum = 0.0;
   for (int i = 0; i < options.episodes; ++i) {
     const auto episode = static_cast<std::uint64_t>(i);
     run.episodes.push_back(play(env, options.seed, episode, greedy));
+    sum += run.episodes.back().reward;
+    if (line.due(i + 1)) {
+      line.show(i + 1, fmt::format("mean reward {:.2f}", sum / (i + 1)));
+    }
   }
+  line.finish();
   run.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   run.simulated_s = env.simulated_s();
   if (!options.json.empty()) {
@@ -60,23 +70,24 @@ int evaluate_play(const Options& options, const Model& model, TaskConfig task) {
 
 int evaluate_decisions(const Options& options, const Model& model, const TaskConfig& task) {
   const Agreement result =
-      agreement(model.parameters, task.inputs, load_decisions(options.decisions, model.parameters.shape()));
+      agreement(model.parameters, task.inputs,
+                load_decisions(options.decisions, task.inputs, model.parameters.shape().actions));
   if (!options.json.empty()) {
     nlohmann::ordered_json report = {{"policy", model_identity(model.parameters)},
                                      {"states", result.states},
-                                     {"agreement", result.agreement},
+                                     {"agreement", number_or_null(result.agreement)},
                                      {"clear_gap", clear_gap},
                                      {"clear_states", result.clear_states},
-                                     {"clear_agreement", result.clear_agreement},
-                                     {"mean_regret", result.mean_regret}};
+                                     {"clear_agreement", number_or_null(result.clear_agreement)},
+                                     {"mean_regret", number_or_null(result.mean_regret)}};
     host::stamp(report);
     host::write_file(options.json, report.dump(2) + "\n");
   }
   fmt::print(
-      "states before contact      {}\nagreement, all states      {:.4f}\n"
-      "agreement, Q gap > {}    {:.4f} ({} states)\nmean regret in float Q     {:.5f}\n",
-      result.states, result.agreement, clear_gap, result.clear_agreement, result.clear_states,
-      result.mean_regret);
+      "states before contact      {}\nagreement, all states      {}\n"
+      "agreement, Q gap > {}    {} ({} states)\nmean regret in float Q     {}\n",
+      result.states, share_text(result.agreement, 4), clear_gap, share_text(result.clear_agreement, 4),
+      result.clear_states, share_text(result.mean_regret, 5));
   return 0;
 }
 
@@ -101,6 +112,9 @@ int main(int argc, char** argv) {
   app.add_option("--pose", options.pose, "the robot's start: origin or anywhere on the field")
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();
+  app.add_option(
+      "--network", options.network,
+      "which of several networks in the file: how its tensors' names begin, such as q_net or model");
   app.add_option("--config", options.config,
                  "the TOML file whose task it was trained for, if the model does not hold it");
   app.add_option("--velocities", options.velocities, "what the network sees: true or estimated velocities")
@@ -116,7 +130,7 @@ int main(int argc, char** argv) {
     if (!*episodes && !*decisions) {
       throw std::runtime_error("give --episodes and --seed, or --decisions");
     }
-    const Model model = load_model(options.model);
+    const Model model = load_model(options.model, options.network);
     const TaskConfig task = task_of(model, options.config);
     return *decisions ? evaluate_decisions(options, model, task) : evaluate_play(options, model, task);
   });

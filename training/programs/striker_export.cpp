@@ -2,11 +2,14 @@
 // striker-export: quantises a model, proves that it cannot overflow, and writes the firmware's header.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/files.hpp"
+#include "firmware/host/progress.hpp"
 #include "training/export/export.hpp"
 #include "training/export/export_report.hpp"
 #include "training/run/model_task.hpp"
@@ -17,6 +20,7 @@ namespace {
 
 struct Options {
   std::filesystem::path model;
+  std::string network;
   std::filesystem::path config;
   std::filesystem::path header;
   std::filesystem::path report;
@@ -24,12 +28,30 @@ struct Options {
   std::string weights = "int16";
 };
 
+// With its progress on stderr; what is wrong with the model is told with its file.
+Export export_with_progress(const Options& options, const Model& model, const TaskConfig& task) {
+  const WeightType weights = options.weights == "int8" ? WeightType::int8 : WeightType::int16;
+  host::ProgressLine line("episode", export_episodes, 0, std::chrono::seconds(1));
+  int played = 0;
+  try {
+    const Export exported = export_model(model, task, weights, [&] {
+      if (line.due(++played)) {
+        line.show(played, played <= export_calibration_episodes ? "calibration" : "float against integers");
+      }
+    });
+    line.finish();
+    return exported;
+  } catch (const std::runtime_error& error) {
+    line.finish();
+    throw std::runtime_error(fmt::format("{}: {}", options.model.string(), error.what()));
+  }
+}
+
 int export_to(const Options& options) {
   const std::string name =
       policy_name_of(options.name.empty() ? options.header : std::filesystem::path(options.name));
-  const Model model = load_model(options.model);
-  const WeightType weights = options.weights == "int8" ? WeightType::int8 : WeightType::int16;
-  const Export exported = export_model(model, task_of(model, options.config), weights);
+  const Model model = load_model(options.model, options.network);
+  const Export exported = export_with_progress(options, model, task_of(model, options.config));
   host::write_file(options.header, header_of(exported, model, name));
   if (!options.report.empty()) {
     host::write_file(options.report, report_of(exported, model));
@@ -42,9 +64,9 @@ int export_to(const Options& options) {
     fmt::print("layer {}: range used {:.1f} %, headroom {:.2f} bits, mean error {:.5f}, greatest {:.4f}\n",
                l + 1, 100.0 * layer.range_used, layer.headroom_bits, layer.mean_error, layer.greatest_error);
   }
-  fmt::print("against float, {} states: agreement {:.4f}, with a Q gap above {} {:.4f}, mean regret {:.5f}\n",
-             agreement.states, agreement.agreement, clear_gap, agreement.clear_agreement,
-             agreement.mean_regret);
+  fmt::print("against float, {} states: agreement {}, with a Q gap above {} {}, mean regret {}\n",
+             agreement.states, share_text(agreement.agreement, 4), clear_gap,
+             share_text(agreement.clear_agreement, 4), share_text(agreement.mean_regret, 5));
   const RewardDifference& reward = exported.reward;
   fmt::print(
       "in play, {} episodes of the servo plant: mean reward {:.3f}, float {:.3f}, difference {:+.4f} +- {:.4f}\n",
@@ -68,6 +90,9 @@ int main(int argc, char** argv) {
   app.add_option("MODEL", options.model, "safetensors file")->required();
   app.add_option("-o,--output", options.header, "the header to write")->required();
   app.add_option("--name", options.name, "the policy's name in C++ (default: that of the output file)");
+  app.add_option(
+      "--network", options.network,
+      "which of several networks in the file: how its tensors' names begin, such as q_net or model");
   app.add_option("--config", options.config,
                  "the TOML file whose task it was trained for, if the model does not hold it");
   app.add_option("--weights", options.weights, "int16, or int8: half the flash, less precise")

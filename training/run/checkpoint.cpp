@@ -11,6 +11,7 @@
 
 #include "firmware/host/files.hpp"
 #include "training/model/safetensors.hpp"
+#include "training/run/config_changes.hpp"
 
 namespace striker::training {
 
@@ -131,23 +132,39 @@ LearnerState read_learner(const SafeTensors& checkpoint, const LearnerConfig& co
   return state;
 }
 
-RunState restore(const SafeTensors& checkpoint, const Config& config, std::uint64_t seed, Learner& learner) {
-  if (text(checkpoint, "configuration") != config.text) {
-    throw std::runtime_error("it was saved with another configuration; resume with that one, or begin anew");
+std::string history_of(const SafeTensors& checkpoint, const std::vector<ChangedKey>& changes, int episodes) {
+  const auto noted = checkpoint.metadata.find("history");
+  std::string history = noted == checkpoint.metadata.end() ? "" : noted->second;
+  if (!changes.empty()) {
+    history +=
+        fmt::format("{}from episode {} on {}", history.empty() ? "" : "; ", episodes, text_of(changes));
   }
+  return history;
+}
+
+RunState restore(const SafeTensors& checkpoint, const Config& config, std::uint64_t seed, Learner& learner) {
+  const std::vector<ChangedKey> changes = changed_keys(text(checkpoint, "configuration"), config.text);
+  require_may_change(changes);
   if (number<std::uint64_t>(checkpoint, "seed") != seed) {
     throw std::runtime_error(
         fmt::format("it was saved with seed {}, not {}", text(checkpoint, "seed"), seed));
   }
+  const int episodes = number<int>(checkpoint, "episodes");
+  if (config.run.episodes < episodes) {
+    throw std::runtime_error(
+        fmt::format("run.episodes = {}, but {} episodes are played; give as many or more",
+                    config.run.episodes, episodes));
+  }
   learner.resume(read_learner(checkpoint, config.learner, learner.state()));
   const auto best_episodes = number<int>(checkpoint, "best_episodes");
   const Eigen::Index best_size = learner.result().values.size();
-  return {.episodes = number<int>(checkpoint, "episodes"),
+  return {.episodes = episodes,
           .recent_rewards = reals(text(checkpoint, "recent_rewards")),
           .best_episodes = best_episodes,
           .best_mean = real(text(checkpoint, "best_mean")),
           .best_values = best_episodes > 0 ? Eigen::VectorXf(matrix(checkpoint, "best", best_size, 1))
-                                           : Eigen::VectorXf()};
+                                           : Eigen::VectorXf(),
+          .history = history_of(checkpoint, changes, episodes)};
 }
 
 }  // namespace
@@ -162,6 +179,9 @@ void save_checkpoint(const std::filesystem::path& file, const Config& config, st
   checkpoint.metadata["recent_rewards"] = list_of(run.recent_rewards);
   checkpoint.metadata["best_mean"] = exact(run.best_mean);
   checkpoint.metadata["best_episodes"] = std::to_string(run.best_episodes);
+  if (!run.history.empty()) {
+    checkpoint.metadata["history"] = run.history;
+  }
   if (run.best_episodes > 0) {
     checkpoint.tensors.push_back(tensor_of("best", run.best_values));
   }

@@ -23,12 +23,16 @@ struct RunState {
   int best_episodes = 0;
   double best_mean = 0.0;
   Eigen::VectorXf best_values;
+  // What configuration and seed do not tell, a clause each: the network that it began from, keys that changed when it
+  // was resumed. Empty: a pure function of configuration and seed.
+  std::string history;
 };
 
 void save_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
                      const Learner& learner, const RunState& run);
 
-// Throws std::runtime_error, naming the file, for one that is damaged, or of another configuration or seed.
+// Throws std::runtime_error, naming the file, for one that is damaged, of another seed, or of a configuration
+// that differs in a key that may not change (config_changes.hpp). What did change is noted in the history.
 RunState load_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
                          Learner& learner);
 

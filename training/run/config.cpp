@@ -62,11 +62,15 @@ void override_with(const toml::table& from, toml::table& into, const std::string
   }
 }
 
-// Every key with its value, the kind of the task only where it is not the default.
+// Every key with its value; those that older configurations did not have only where they are not the default.
 std::string canonical_text(toml::table root) {
   toml::table& task = *root["task"].as_table();
   if (task["kind"].value<std::string>() == default_kind) {
     task.erase("kind");
+  }
+  toml::table& learner = *root["learner"].as_table();
+  if (learner["time_limit"].value<bool>() == false) {
+    learner.erase("time_limit");
   }
   std::ostringstream every_key;
   every_key << root << '\n';
@@ -77,6 +81,7 @@ void read_learner(const TomlReader& reader, LearnerConfig& learner) {
   reader.read("learner.gamma", learner.gamma, 0.0, 1.0);
   reader.read("learner.n_step", learner.n_step, 1, sil::kick_decisions);
   reader.read("learner.cut_at_exploration", learner.cut_at_exploration);
+  reader.read("learner.time_limit", learner.time_limit);
   reader.read("learner.double_dqn", learner.double_dqn);
   reader.read("learner.huber", learner.huber);
   reader.read("learner.mirror", learner.augment_mirrored);

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
-
-#include "training/run/config.hpp"
+#include <utility>
 
 namespace striker::training {
 
@@ -25,6 +24,35 @@ TaskConfig task_of(const Model& model, const std::filesystem::path& config_file)
         shape.inputs, shape.actions, task.inputs.size(), task.actions.size()));
   }
   return task;
+}
+
+void require_fits(const Model& model, const Config& config, const std::string& file) {
+  const auto refuse = [&file](const std::string& why) {
+    throw std::runtime_error(fmt::format("{}: a training cannot begin from it: {}", file, why));
+  };
+  const auto widths = model.parameters.shape().widths();
+  if (config.shape.dueling) {
+    refuse("network.dueling = true, but a model holds plain Q values; set network.dueling = false");
+  }
+  if (config.shape.widths() != widths) {
+    refuse(
+        fmt::format("its network is {}, the configuration's {}; change network.hidden, task.inputs or "
+                    "task.actions",
+                    fmt::join(widths, "-"), fmt::join(config.shape.widths(), "-")));
+  }
+  const TaskConfig& task = config.environments.front();
+  const auto noted = model.metadata.find("configuration");
+  if (noted == model.metadata.end()) {
+    return;
+  }
+  const TaskConfig own = parse_config(noted->second, "the model's configuration").environments.front();
+  for (const auto& [key, equal] : {std::pair("task.inputs", own.inputs == task.inputs),
+                                   std::pair("task.actions", own.actions == task.actions),
+                                   std::pair("task.mirrored", own.one_sided == task.one_sided)}) {
+    if (!equal) {
+      refuse(fmt::format("its {} is another; set it as in the model's configuration", key));
+    }
+  }
 }
 
 }  // namespace striker::training

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "training/model/model.hpp"
+#include "training/run/config.hpp"
 #include "training/task/task_config.hpp"
 
 namespace striker::training {
@@ -13,5 +15,9 @@ namespace striker::training {
 // either it is the official task with the RCS state. Throws std::runtime_error if inputs or actions do not
 // fit the network.
 [[nodiscard]] TaskConfig task_of(const Model& model, const std::filesystem::path& config_file);
+
+// Throws std::runtime_error, naming `file`, what differs and the way out, unless a training of `config` can begin
+// from this model: its network's widths, and (where the model says so) its task's inputs, actions and mirror.
+void require_fits(const Model& model, const Config& config, const std::string& file);
 
 }  // namespace striker::training

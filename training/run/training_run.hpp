@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A training from its first episode to its last: in memory, and as a directory that it can be resumed from.
+// A training from its first episode to its last, in memory. directory/train_into.hpp keeps it in files.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <vector>
 
 #include "training/learner/dqn.hpp"
@@ -30,6 +28,7 @@ class Training {
  public:
   Training(const Config& config, std::uint64_t seed);
 
+  // Throws Divergence (learner/divergence.hpp), after which only `state` and what was kept before are sound.
   CurveRow play_episode();
   [[nodiscard]] bool done() const { return state_.episodes == config_.run.episodes; }
 
@@ -38,6 +37,8 @@ class Training {
   [[nodiscard]] const Learner& learner() const { return learner_; }
   [[nodiscard]] int episodes() const { return state_.episodes; }
   [[nodiscard]] const RunState& state() const { return state_; }
+  // Before the first episode: begins from this network (require_fits in model_task.hpp), and notes it.
+  void begin_from(const Parameters& parameters);
   void note_best(double mean, const Parameters& parameters);
 
   void save(const std::filesystem::path& checkpoint) const;
@@ -56,30 +57,7 @@ class Training {
 [[nodiscard]] Model model_of(const Training& training);
 [[nodiscard]] Model best_model_of(const Training& training);
 
-struct TrainingResult {
-  bool interrupted = false;
-  int episodes = 0;
-  std::int64_t decisions = 0;
-  std::int64_t gradient_steps = 0;
-  double moving_average = 0.0;
-  std::optional<double> mean_reward;  // of the model, on the validation episodes, if it was measured
-  std::optional<double> best_mean_reward;
-};
-
-// Called after each episode; false ends the training there.
-using TrainingProgress = std::function<bool(const CurveRow&)>;
-
-// Trains into a directory, which is made if it is missing:
-//   model.safetensors      the network at the end
-//   best.safetensors       the best one of the greedy evaluations, if the configuration wants any
-//   learning_curve.csv     a row an episode
-//   evaluations.csv        a row a greedy evaluation
-//   speed.csv              measured by the clock: the only file that differs between equal runs
-//   checkpoint.safetensors while the run is not complete
-// An interrupted one keeps all of it, and `resume` goes on to the same bytes as if it had not stopped.
-// Throws std::runtime_error with one line: an unfinished run is there and `resume` is not set, or `resume` is
-// and there is nothing to go on from, or a file is damaged or cannot be written.
-TrainingResult train_into(const std::filesystem::path& directory, const Config& config, std::uint64_t seed,
-                          bool resume, const TrainingProgress& progress);
+// The mean greedy reward on the run's validation episodes, which neither training nor evaluation meets.
+[[nodiscard]] double validation_mean(const Training& training, const Parameters& parameters);
 
 }  // namespace striker::training

@@ -27,7 +27,10 @@ struct StepResult {
   double reward = 0.0;   // of this decision
   bool success = false;  // what the task is about happened in this decision: for the kick, the first contact
   bool last = false;     // this was the episode's last possible decision
-  bool end = false;      // of the episode, for a learner: nothing after it is worth anything
+  bool end = false;      // of the episode, for a learner
+  // The episode ended because its time was over, not because of what happened: in the state after it the task would
+  // have gone on (Gymnasium's "truncated"). False: nothing after the end is worth anything.
+  bool truncated = false;
 };
 
 template <class E>

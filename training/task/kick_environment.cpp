@@ -50,7 +50,9 @@ StepResult KickEnvironment::step(int action) {
   write_features(config_.inputs, history_, in_mirror(), dummies_, features_);
   result.success = success() && !before;
   result.last = decisions_ == sil::kick_decisions;
-  result.end = result.last || (result.success && !config_.goes_on);
+  const bool done = result.success && !config_.goes_on;
+  result.end = result.last || done;
+  result.truncated = result.last && !done;
   return result;
 }
 

@@ -87,6 +87,34 @@ TEST(Export, TheHeaderOfInt8WeightsProvesItself) {
   EXPECT_NE(header, header_of(export_model(model, {}), model, "trained"));
 }
 
+// Only what the file says and the weights confirm.
+TEST(Export, TheHeaderClaimsOnlyWhatIsKnown) {
+  Model model = some_model();
+  const Export exported = export_model(model, {});
+  const auto header = [&](const std::map<std::string, std::string>& metadata) {
+    model.metadata = metadata;
+    return header_of(exported, model, "trained");
+  };
+  const std::string foreign = header({});
+  EXPECT_EQ(foreign.find("Trained by"), std::string::npos);
+  EXPECT_EQ(foreign.find("unknown"), std::string::npos);
+  EXPECT_EQ(foreign.find("Mean reward"), std::string::npos);
+  EXPECT_NE(foreign.find("names no training of striker-train"), std::string::npos);
+  EXPECT_NE(foreign.find(model_identity(model.parameters)), std::string::npos);
+  EXPECT_EQ(foreign.find("PyTorch"), std::string::npos);
+  EXPECT_NE(header({{"format", "pt"}}).find("PyTorch"), std::string::npos);
+  std::map<std::string, std::string> own = {{"configuration_name", "kick"},
+                                            {"seed", "3"},
+                                            {"identity", model_identity(model.parameters)},
+                                            {"mean_reward", "7.500"}};
+  EXPECT_NE(header(own).find("// Trained by striker-train, configuration \"kick\", seed 3; the float"),
+            std::string::npos);
+  EXPECT_NE(header(own).find("servo plant: 7.500."), std::string::npos);
+  own["identity"] = "00000000";
+  EXPECT_EQ(header(own).find("Trained by"), std::string::npos);
+  EXPECT_NE(header(own).find("whose weights were changed"), std::string::npos);
+}
+
 TEST(Export, IsAFunctionOfTheModel) {
   const Model model = some_model();
   const std::string header = header_of(export_model(model, {}), model, "trained");

@@ -136,6 +136,37 @@ TEST(Quantise, ScalesAreTheGreatestThatHold) {
   }
 }
 
+// A neuron that no state wakes, with a bias beyond 32 bits: named, and without it the network fits and plays the same.
+TEST(Quantise, ADeadNeuronsHugeBiasIsNamed) {
+  Parameters parameters = some_parameters(1);
+  parameters.biases(1)(5) = -1e7F;
+  try {
+    (void)quantise(parameters, inputs, some_states(1, 100));
+    FAIL() << "it fits";
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("layer 2"), std::string::npos) << message;
+    EXPECT_NE(message.find("tensor 2.bias, row 5, is -1e+07"), std::string::npos) << message;
+    EXPECT_NE(message.find("active in none of 100 states"), std::string::npos) << message;
+  }
+  parameters.biases(1)(5) = 0.0F;
+  parameters.weights(1).row(5).setZero();
+  EXPECT_NO_THROW((void)quantise(parameters, inputs, some_states(1, 100)));
+}
+
+// One weight that nothing can make good.
+TEST(Quantise, AHugeWeightIsNamed) {
+  Parameters parameters = some_parameters(1);
+  parameters.weights(2)(1, 7) = 3e7F;
+  try {
+    (void)quantise(parameters, inputs, some_states(1, 100));
+    FAIL() << "it fits";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("tensor 4.weight, row 1, column 7, is 3e+07"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Quantise, WeightsBeyondEveryScaleAreRefused) {
   Parameters parameters({});
   parameters.values.setConstant(1e9F);

@@ -62,6 +62,27 @@ TEST(NStep, ReturnsAreTheirDefinition) {
   }
 }
 
+// At a time limit every open sum ends in the last state, and that keeps its value.
+TEST(NStep, ATimeLimitKeepsTheValueOfTheLastState) {
+  constexpr double gamma = 0.9;
+  constexpr int length = 7;
+  for (const int n : {1, 3, 40}) {
+    NStep n_step(n, gamma, inputs);
+    ReplayBuffer replay(inputs, 100);
+    const auto push = [&replay](const Transition& transition) { replay.push(transition); };
+    for (int t = 0; t < length; ++t) {
+      const bool end = t + 1 == length;
+      n_step.take(numbered(t), 0, 1.0, numbered(t + 1), end, push, end);
+    }
+    ASSERT_EQ(replay.size(), length);
+    for (int t = 0; t < length; ++t) {
+      const int steps = std::min(n, length - t);
+      EXPECT_NEAR(replay.discount(t), std::pow(gamma, steps), 1e-6) << n << " " << t;
+      EXPECT_EQ(replay.next(t), numbered(t + steps));
+    }
+  }
+}
+
 // A cut ends every open sum where it is made, and what follows begins anew.
 TEST(NStep, ACutEndsTheSums) {
   constexpr double gamma = 0.9;

@@ -46,6 +46,7 @@ TEST(Train, EveryOptionMatters) {
   EXPECT_TRUE(differs([](Config& c) { c.learner.gamma = 0.9; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.n_step = 1; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.cut_at_exploration = true; }));
+  EXPECT_TRUE(differs([](Config& c) { c.learner.time_limit = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.double_dqn = false; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.huber = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.augment_mirrored = false; }));

@@ -76,6 +76,71 @@ TEST(Model, OfAnotherShapeIsRefused) {
   EXPECT_NE(complaint(turned).find("0.weight has shape [6, 64]"), std::string::npos);
 }
 
+std::string complaint_of(const std::vector<Tensor>& tensors, const std::string& network = "") {
+  try {
+    (void)parameters_of(tensors, "f", network);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "was read";
+}
+
+// A weight as Keras holds it, in any layer that is not square.
+TEST(Model, ATransposedWeightIsCalledThat) {
+  const Parameters parameters = some_parameters(1, {.inputs = 6, .hidden1 = 8, .hidden2 = 10, .actions = 3});
+  for (const std::size_t at : {0U, 2U, 4U}) {
+    std::vector<Tensor> tensors = tensors_of(parameters);
+    std::vector<std::size_t>& shape = tensors[at].shape;
+    const std::string right = fmt::format("here [{}, {}]", shape[0], shape[1]);
+    std::swap(shape[0], shape[1]);
+    const std::string message = complaint_of(tensors);
+    EXPECT_NE(message.find("f: tensor " + tensors[at].name), std::string::npos) << message;
+    EXPECT_NE(message.find("transposed"), std::string::npos) << message;
+    EXPECT_NE(message.find(right), std::string::npos) << message;
+  }
+  std::vector<Tensor> tensors = tensors_of(parameters);
+  tensors[0].shape = {4, 12};
+  EXPECT_NE(complaint_of(tensors).find("[4, 12], not [8, inputs]: 0.bias has 8 values"), std::string::npos);
+  tensors = tensors_of(parameters);
+  tensors[1].shape = {8, 1};
+  EXPECT_NE(complaint_of(tensors).find("0.bias has shape [8, 1]; a bias is a list"), std::string::npos);
+}
+
+// Several networks in a file, none of them called a target: one can be named.
+TEST(Model, OneOfSeveralNetworksIsNamed) {
+  const Parameters online = some_parameters(1);
+  const Parameters old = some_parameters(2);
+  std::vector<Tensor> tensors;
+  const auto add = [&tensors](const Parameters& parameters, const std::string& prefix) {
+    for (Tensor& tensor : tensors_of(parameters)) {
+      tensor.name = prefix + tensor.name;
+      tensors.push_back(tensor);
+    }
+  };
+  add(online, "model.model.");
+  add(old, "model_old.model.");
+  const std::string message = complaint_of(tensors);
+  EXPECT_NE(message.find(R"(2 networks ("model.model.", "model_old.model."))"), std::string::npos) << message;
+  EXPECT_NE(message.find("--network \"model.model.\""), std::string::npos) << message;
+  tensors.push_back({.name = "steps", .shape = {1}, .values = {3.0F}});
+  for (const char* name : {"model", "model.", "model.model", "model.model."}) {
+    EXPECT_EQ(parameters_of(tensors, "f", name), online) << name;
+  }
+  EXPECT_EQ(parameters_of(tensors, "f", "model_old"), old);
+  EXPECT_NE(complaint_of(tensors, "mod").find("none of its networks"), std::string::npos);
+  add(old, "model.other.");
+  EXPECT_NE(complaint_of(tensors, "model").find("several of its networks"), std::string::npos);
+  EXPECT_NE(complaint_of({}).find("no network"), std::string::npos);
+}
+
+TEST(Model, WithoutNumbersIsNotWritten) {
+  const TemporaryDirectory directory;
+  Parameters parameters = some_parameters(1);
+  parameters.values(7) = std::nanf("");
+  EXPECT_THROW(save_model({.parameters = parameters, .metadata = {}}, directory / "m"), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(directory / "m"));
+}
+
 // As Stable-Baselines3 names them, target network and all; CleanRL's, whose layers count 0, 2, 4 too; and any
 // order of the tensors.
 TEST(Model, OtherPeoplesNamesAreRead) {

@@ -65,6 +65,26 @@ std::vector<Malformed> malformed() {
                eight),
        "overlap"},
       {"Gap", file_of(R"({"a":{"dtype":"F32","shape":[1],"data_offsets":[4,8]}})", eight), "gap"},
+      {"NameTwice",
+       file_of(R"({"b":{"dtype":"F32","shape":[1],"data_offsets":[0,4]},"a":{"dtype":"F32","shape":[1],)"
+               R"("data_offsets":[4,8]},"b":{"dtype":"F32","shape":[1],"data_offsets":[0,4]}})",
+               eight),
+       "names b twice"},
+      {"NameTwiceElsewhere",
+       file_of(R"({"a":{"dtype":"F32","shape":[2],"data_offsets":[0,8]},"b":{"dtype":"F32","shape":[2],)"
+               R"("data_offsets":[0,8]},"b":{"dtype":"F32","shape":[1],"data_offsets":[0,4]}})",
+               eight),
+       "names b twice"},
+      {"FieldTwice",
+       file_of(R"({"a":{"dtype":"F32","dtype":"F16","shape":[2],"data_offsets":[0,8]}})", eight),
+       "names dtype twice"},
+      {"Zip", "PK\x03\x04" + std::string(100, '\x06'), "zip archive, as torch.save writes it"},
+      {"Pickle", "\x80\x04\x95" + std::string(100, '\x06'), "Python pickle"},
+      {"Json", R"({"metadata": {"total_size": 12}, "weight_map": {}})", "JSON text"},
+      {"Hdf5", "\x89HDF\r\n\x1a\n" + std::string(100, '\x06'), "HDF5"},
+      {"Numpy", "\x93NUMPY" + std::string(100, '\x06'), "NumPy"},
+      {"Gzip", "\x1f\x8b" + std::string(100, '\x06'), "gunzip"},
+      {"LfsPointer", "version https://git-lfs.github.com/spec/v1\n", "git lfs pull"},
       {"NaN", file_of(one, with_nan), "NaN"},
       {"Infinity", file_of(one, with_infinity), "infinite"},
   };
@@ -102,6 +122,20 @@ TEST(Safetensors, WhatIsWrittenIsRead) {
   std::uint64_t length = 0;
   std::memcpy(&length, bytes.data(), 8);
   EXPECT_EQ(length % 8, 0U) << "the data are not aligned";
+}
+
+// A length that begins like a pickle is none: 640 bytes of header.
+TEST(Safetensors, ALengthThatLooksLikeAnotherFormatIsALength) {
+  std::string header = R"({"a":{"dtype":"F32","shape":[2],"data_offsets":[0,8]}})";
+  header.resize(0x280, ' ');
+  EXPECT_EQ(read_safetensors(file_of(header, eight), "f").tensors.size(), 1U);
+}
+
+// Equal names in different objects are no repetition.
+TEST(Safetensors, FieldsOfSeveralTensorsAreNoRepetition) {
+  const std::string two = R"({"a":{"dtype":"F32","shape":[1],"data_offsets":[0,4]},)"
+                          R"("b":{"dtype":"F32","shape":[1],"data_offsets":[4,8]}})";
+  EXPECT_EQ(read_safetensors(file_of(two, eight), "f").tensors.size(), 2U);
 }
 
 TEST(Safetensors, EveryTruncationOfAModelIsRefused) {

@@ -57,7 +57,8 @@ class CommandLine : public testing::Test {
 
 TEST_F(CommandLine, HelpNamesEveryOption) {
   const auto help = [this](const char* program) { return run(fmt::format("{} --help", program)).out; };
-  for (const char* option : {"--config", "--set", "--seed", "--out", "--resume"}) {
+  for (const char* option :
+       {"--config", "--set", "--seed", "--out", "--resume", "--force", "--init", "--network", "status 3"}) {
     EXPECT_NE(help(STRIKER_TRAIN).find(option), std::string::npos) << option;
   }
   for (const char* option :
@@ -68,7 +69,7 @@ TEST_F(CommandLine, HelpNamesEveryOption) {
                              "--position-cell", "--speed-cell", "--json", "--csv"}) {
     EXPECT_NE(help(STRIKER_CEILING).find(option), std::string::npos) << option;
   }
-  for (const char* option : {"MODEL", "--output", "--weights", "--report"}) {
+  for (const char* option : {"MODEL", "--output", "--network", "--weights", "--report"}) {
     EXPECT_NE(help(STRIKER_EXPORT).find(option), std::string::npos) << option;
   }
   EXPECT_EQ(run(fmt::format("{} --help", STRIKER_TRAIN)).code, 0);
@@ -150,6 +151,65 @@ TEST_F(CommandLine, AnInterruptedTrainingKeepsWhatItHas) {
   EXPECT_GT(std::count(curve.begin(), curve.end(), '\n'), 1);
 }
 
+TEST_F(CommandLine, ADivergedTrainingHasAnExitStatusOfItsOwn) {
+  const Result result = run(fmt::format(
+      "{} --config {} --seed 1 --out {} --set optimiser.learning_rate=0.3 --set learner.gradient_steps=5 "
+      "--set learner.target_period=1 --set learner.gamma=1.0 --set run.episodes=200",
+      STRIKER_TRAIN, quick_config(), path("out")));
+  EXPECT_EQ(result.code, 3) << result.err;
+  EXPECT_NE(result.err.find("striker-train: " + path("out") + ": the training diverged"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_FALSE(std::filesystem::exists(path("out") + "/model.safetensors"));
+}
+
+TEST_F(CommandLine, AUsedDirectoryIsRefusedUnlessForced) {
+  const std::string train =
+      fmt::format("{} --config {} --seed 1 --out {}", STRIKER_TRAIN, quick_config(), path("out"));
+  ASSERT_EQ(run(train).code, 0);
+  const std::string model = content_of(path("out") + "/model.safetensors");
+  expect_refusal(train, "--force");
+  expect_refusal(train + " --resume", "complete");
+  expect_refusal(train + " --resume --force", "--resume");
+  EXPECT_EQ(content_of(path("out") + "/model.safetensors"), model);
+  EXPECT_EQ(run(train + " --force").code, 0);
+  EXPECT_EQ(content_of(path("out") + "/model.safetensors"), model);
+}
+
+TEST_F(CommandLine, ATrainingGoesOnAndBeginsFromAModel) {
+  const std::string train =
+      fmt::format("{} --config {} --seed 1 --out {}", STRIKER_TRAIN, quick_config(), path("out"));
+  ASSERT_EQ(run(train).code, 0);
+  const Result more = run(train + " --resume --set run.episodes=40 --set optimiser.learning_rate=1e-4");
+  EXPECT_EQ(more.code, 0) << more.err;
+  const std::string curve = content_of(path("out") + "/learning_curve.csv");
+  EXPECT_EQ(std::count(curve.begin(), curve.end(), '\n'), 41);
+  expect_refusal(train + " --resume --set run.episodes=50 --set learner.gamma=0.9", "learner.gamma was 0.95");
+
+  const std::string model = path("out") + "/model.safetensors";
+  const std::string begin = replaced(train, path("out"), path("begun")) + " --init " + model;
+  expect_refusal(begin + " --set network.hidden=[8,8]", model);
+  expect_refusal(begin + " --resume", "--init");
+  expect_refusal(train + " --network model", "--init");
+  EXPECT_FALSE(std::filesystem::exists(path("begun")));
+  const Result begun = run(begin);
+  EXPECT_EQ(begun.code, 0) << begun.err;
+  EXPECT_NE(load_model(path("begun") + "/model.safetensors").metadata.at("history").find("begun from"),
+            std::string::npos);
+}
+
+// On stderr, after a second, and not at all for less.
+TEST_F(CommandLine, LongWorkShowsItsProgress) {
+  const std::string evaluate = fmt::format("{} --model {} --seed 1", STRIKER_EVALUATE, a_model());
+  EXPECT_EQ(run(evaluate + " --episodes 1").err, "");
+  const Result long_one = run(evaluate + " --episodes 3000");
+  EXPECT_NE(long_one.err.find("/3000  "), std::string::npos) << long_one.err;
+  EXPECT_NE(long_one.err.find(" s left  mean reward "), std::string::npos) << long_one.err;
+  EXPECT_EQ(long_one.out.find("/3000  "), std::string::npos);
+  const Result exported = run(fmt::format("{} {} -o {}", STRIKER_EXPORT, a_model(), path("p.hpp")));
+  EXPECT_NE(exported.err.find("/800  "), std::string::npos) << exported.err;
+}
+
 TEST_F(CommandLine, TrainRefusesBadInput) {
   const std::string config = quick_config();
   const auto train_with = [&](const std::string& file, const std::string& out) {
@@ -172,7 +232,7 @@ TEST_F(CommandLine, EvaluateRefusesBadInput) {
   write_to(path("cut.safetensors"), whole.substr(0, whole.size() - 100));
   Parameters broken = some_parameters(1);
   broken.values(100) = std::numeric_limits<float>::quiet_NaN();
-  save_model({.parameters = broken, .metadata = {}}, path("nan.safetensors"));
+  write_to(path("nan.safetensors"), write_safetensors({.tensors = tensors_of(broken), .metadata = {}}));
   const auto evaluate_with = [&](const std::string& file, const std::string& more) {
     return fmt::format("{} --model {} {}", STRIKER_EVALUATE, file, more);
   };

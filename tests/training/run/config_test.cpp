@@ -104,6 +104,14 @@ TEST(Config, TheCommittedPolicysConfigurationIsStillItsOwn) {
   EXPECT_EQ(parse_config("[task]\nkind = \"kick\"\n", "f").text, parse_config("", "f").text);
 }
 
+TEST(Config, TheTimeLimitStandsInTheTextOnlyWhereItIsOn) {
+  EXPECT_EQ(parse_config("[learner]\ntime_limit = false\n", "f").text, parse_config("", "f").text);
+  const Config on = parse_config("[learner]\ntime_limit = true\n", "f");
+  EXPECT_TRUE(on.learner.time_limit);
+  EXPECT_NE(on.text, parse_config("", "f").text);
+  EXPECT_TRUE(parse_config(on.text, "g").learner.time_limit);
+}
+
 TEST(Config, ChangesOverrideTheFile) {
   const std::string file = "[learner]\ngamma = 0.5\n";
   EXPECT_EQ(parse_config(file, "f", {"learner.gamma=0.75", "run.episodes = 7"}).learner.gamma, 0.75);

@@ -20,5 +20,28 @@ TEST(ModelTask, IsThatOfItsConfiguration) {
   EXPECT_EQ(task_of(stranger, directory / "acs.toml").inputs, acs_inputs());
 }
 
+// What a training can begin from: the widths must be the configuration's, and the task where the model names it.
+TEST(ModelTask, ATrainingBeginsFromWhatFits) {
+  const auto complaint = [](const Model& model, const std::string& config) {
+    try {
+      require_fits(model, parse_config(config, "f"), "m.safetensors");
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("fits");
+  };
+  const Model model{.parameters = some_parameters(1), .metadata = {}};
+  EXPECT_EQ(complaint(model, ""), "fits");
+  EXPECT_NE(complaint(model, "[network]\nhidden = [8, 8]\n").find("m.safetensors: "), std::string::npos);
+  EXPECT_NE(
+      complaint(model, "[network]\nhidden = [8, 8]\n").find("is 6-64-64-3, the configuration's 6-8-8-3"),
+      std::string::npos);
+  EXPECT_NE(complaint(model, "[network]\ndueling = true\n").find("network.dueling"), std::string::npos);
+  const Model own{.parameters = some_parameters(1),
+                  .metadata = {{"configuration", parse_config("[task]\nmirrored = true\n", "f").text}}};
+  EXPECT_NE(complaint(own, "").find("task.mirrored is another"), std::string::npos);
+  EXPECT_EQ(complaint(own, "[task]\nmirrored = true\n"), "fits");
+}
+
 }  // namespace
 }  // namespace striker::training

@@ -196,7 +196,9 @@ TEST(KickEnvironment, EveryContactMayPay) {
         const StepResult result = env.step(static_cast<int>(random.below(3)));
         paid.push_back(result.reward);
         last = result.last;
-        EXPECT_EQ(result.end, result.last || (result.success && !env.config().goes_on));
+        const bool done = result.success && !env.config().goes_on;
+        EXPECT_EQ(result.end, result.last || done);
+        EXPECT_EQ(result.truncated, result.last && !done);
       }
       return paid;
     };

@@ -13,7 +13,8 @@ namespace striker::training {
 namespace {
 
 template <Environment E>
-RewardDifference played(E& env, const Parameters& parameters, const IntegerNetwork& network, int episodes) {
+RewardDifference played(E& env, const Parameters& parameters, const IntegerNetwork& network, int episodes,
+                        const EpisodePlayed& done) {
   GreedyRule greedy(parameters);
   const auto by_integers = [&network](const E& seen) {
     return static_cast<int>(evaluate(network, seen.raw()).action);
@@ -27,6 +28,7 @@ RewardDifference played(E& env, const Parameters& parameters, const IntegerNetwo
     result.float_mean += exact / episodes;
     result.integer_mean += integer / episodes;
     squares += (integer - exact) * (integer - exact) / episodes;
+    done();
   }
   const double mean = result.integer_mean - result.float_mean;
   result.standard_error = std::sqrt(std::max(0.0, squares - mean * mean) / episodes);
@@ -36,11 +38,11 @@ RewardDifference played(E& env, const Parameters& parameters, const IntegerNetwo
 }  // namespace
 
 RewardDifference reward_difference(const Parameters& parameters, const IntegerNetwork& network,
-                                   TaskConfig task, int episodes) {
+                                   TaskConfig task, int episodes, const EpisodePlayed& done) {
   task.physics = Physics::full;
   task.velocities = Velocities::estimated;
   AnyEnvironment environment = make_environment(task);
-  return std::visit([&](auto& env) { return played(env, parameters, network, episodes); }, environment);
+  return std::visit([&](auto& env) { return played(env, parameters, network, episodes, done); }, environment);
 }
 
 }  // namespace striker::training

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "training/run/episode_csv.hpp"
+#include "training/run/directory/episode_csv.hpp"
 
 #include <fmt/format.h>
 
