@@ -10,6 +10,7 @@
 
 #include "firmware/host/files.hpp"
 #include "firmware/host/version.hpp"
+#include "training/learner/divergence.hpp"
 #include "training/model/hash.hpp"
 #include "training/model/model.hpp"
 #include "training/run/evaluation.hpp"
@@ -75,6 +76,23 @@ std::vector<double> read_curve(const std::filesystem::path& file, const SeedRun&
   return rewards;
 }
 
+// The curve of a whole training.
+std::string trained_curve(Training& training, const SeedRun& run) {
+  std::string curve = curve_header;
+  try {
+    while (!training.done()) {
+      const CurveRow row = training.play_episode();
+      curve += fmt::format("{},{:.6f},{:.6f}\n", row.episode.episode, row.episode.reward, row.moving_average);
+    }
+  } catch (const Divergence& divergence) {
+    throw std::runtime_error(
+        fmt::format("the training diverged: {}; nothing of the run was written; try a lower "
+                    "optimiser.learning_rate (it is {}) with --set, in another directory",
+                    divergence.what(), run.variant->config.optimiser.learning_rate));
+  }
+  return curve;
+}
+
 }  // namespace
 
 std::vector<Variant> paper_variants(const std::string& base_text, const std::string& base_name) {
@@ -134,11 +152,7 @@ void carry_out(const SeedRun& run, const std::filesystem::path& directory) {
   const auto [curve_file, model_file, figures_file] = files_of(run, directory);
   host::require_writable(curve_file.parent_path());
   Training training(run.variant->config, run.seed);
-  std::string curve = curve_header;
-  while (!training.done()) {
-    const CurveRow row = training.play_episode();
-    curve += fmt::format("{},{:.6f},{:.6f}\n", row.episode.episode, row.episode.reward, row.moving_average);
-  }
+  const std::string curve = trained_curve(training, run);
   const Model model = model_of(training);
   const TaskConfig& task = run.variant->config.environments.front();
   nlohmann::ordered_json figures = {

@@ -34,7 +34,7 @@ Export export_with_progress(const Options& options, const Model& model, const Ta
   host::ProgressLine line("episode", export_episodes, 0, std::chrono::seconds(1));
   int played = 0;
   try {
-    const Export exported = export_model(model, task, weights, [&] {
+    Export exported = export_model(model, task, weights, [&] {
       if (line.due(++played)) {
         line.show(played, played <= export_calibration_episodes ? "calibration" : "float against integers");
       }

@@ -107,6 +107,27 @@ TEST(Experiment, ARunComesBackFromItsFiles) {
   EXPECT_LT(figures->origin_mean, 0.0);
 }
 
+// It says so, and leaves no file that could be taken for a run.
+TEST(Experiment, ADivergedRunIsNone) {
+  const TemporaryDirectory directory;
+  const std::string diverging =
+      "[run]\nepisodes = 200\n[learner]\nwarm_up = 100\ngradient_steps = 5\ntarget_period = 1\ngamma = 1.0\n"
+      "[optimiser]\nlearning_rate = 0.3\n";
+  const Variant variant{.name = "far", .says = "", .config = parse_config(diverging, "far.toml")};
+  const SeedRun run{.variant = &variant, .seed = 1};
+  try {
+    carry_out(run, directory / "e");
+    FAIL() << "it ran";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("diverged"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("optimiser.learning_rate"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(load_run(run, directory / "e").has_value());
+  for (const auto& file : files_of(run, directory / "e")) {
+    EXPECT_FALSE(std::filesystem::exists(file)) << file;
+  }
+}
+
 TEST(Experiment, DamagedRunsAreRefusedByName) {
   const TemporaryDirectory directory;
   const auto variants = short_variants();

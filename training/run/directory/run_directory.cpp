@@ -76,8 +76,10 @@ void RunDirectory::begin(Training& training, Start start) {
 
 void RunDirectory::resume(Training& training) {
   if (!std::filesystem::exists(checkpoint_)) {
-    throw std::runtime_error(
-        fmt::format("{}: no checkpoint to resume from; begin anew with --force", directory_.string()));
+    throw std::runtime_error(fmt::format(
+        "{}: no checkpoint to resume from; begin anew without --resume, with --force if it holds a "
+        "training",
+        directory_.string()));
   }
   training.resume(checkpoint_);
   if (training.done() && std::filesystem::exists(model_file())) {
