@@ -102,7 +102,8 @@ class KickSession {
         scenario_({.pose = options.pose == "anywhere" ? PoseMode::anywhere : PoseMode::origin,
                    .seed = options.seed,
                    .first_episode = options.first,
-                   .episodes = options.episodes},
+                   .episodes = options.episodes,
+                   .needs_controller = options.real_time},
                   seat_, observers) {}
 
   // The JSON line of the episode that has just ended.

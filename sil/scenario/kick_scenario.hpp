@@ -36,6 +36,7 @@ struct KickPlan {
   std::uint64_t seed = 1;
   std::uint64_t first_episode = 0;
   std::uint64_t episodes = 20;
+  bool needs_controller = false;  // one that says nothing during the boot is an error, as on a wall clock
 };
 
 class KickScenario {
@@ -44,8 +45,8 @@ class KickScenario {
   KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer* const> observers);
 
   // All episodes, or those that were completed before `stop`, which is asked after every tick; leaves the
-  // controller disarmed. Throws std::runtime_error where the bus fails, or no controller said anything until the end
-  // of the boot; the observers' files are completed all the same.
+  // controller disarmed. Throws std::runtime_error where the bus fails, or a needed controller said nothing until the
+  // end of the boot; the observers' files are completed all the same.
   void run(const std::function<bool()>& stop);
 
   [[nodiscard]] const std::vector<KickOutcome>& outcomes() const { return outcomes_; }
