@@ -57,8 +57,8 @@ class Pilot {
   static constexpr auto set_points = policy.set_points;
   using Inputs = std::array<std::int32_t, Shape::inputs>;
 
-  // No action goes beyond the robot's top speed, and its wheel loops stay within 32 bits: a constant expression where the robot is known to the
-  // compiler, and a part of the self-test everywhere.
+  // No action goes beyond the robot's top speed, and its wheel loops stay within 32 bits: a constant expression
+  // where the robot is known to the compiler, and a part of the self-test everywhere.
   [[nodiscard]] static constexpr bool suits(const RobotProfile& robot) {
     if (!loops_fit(robot)) {
       return false;

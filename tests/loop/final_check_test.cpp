@@ -7,6 +7,7 @@
 
 #include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/core/controller.hpp"
+#include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/controller_node.hpp"
 #include "firmware/loop/gated_node.hpp"
 
@@ -80,6 +81,22 @@ TEST(FinalCheck, ASetPointBeyondTheRobotsTopSpeedIsRefusedAndLatched) {
   EXPECT_EQ(bench.controller.fault(), Fault::command_rejected);
   EXPECT_EQ(bench.actions.drive, DriveCommand{});
   EXPECT_EQ(bench.actions.fault, Fault::command_rejected);
+}
+
+TEST(FinalCheck, ARobotThatThePolicyDoesNotSuitFailsTheSelfTest) {
+  RobotProfile slow = loop::built_in_robot;
+  slow.top_rim_speed_mm_s = 1'000;
+  RobotProfile strong = loop::built_in_robot;
+  strong.torque_limit_mNm = INT32_MAX;
+  for (const RobotProfile& unfit : {slow, strong}) {
+    EXPECT_FALSE(loop::BuiltInPilot::suits(unfit));
+    loop::BuiltInNode node(unfit);
+    can::FrameList frames;
+    for (std::uint32_t tick = 0; tick < 100; ++tick) {
+      node.step({.number = tick}, {}, frames);
+    }
+    EXPECT_EQ(node.controller().fault(), Fault::self_test_failed);
+  }
 }
 
 TEST(FinalCheck, TheTopSpeedItselfIsDriven) {
