@@ -12,13 +12,13 @@
 #include "firmware/can/codec.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
 #include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/frame_queue.hpp"
 #include "firmware/loop/sync_ticks.hpp"
 #include "firmware/loop/tick_loop.hpp"
 #include "firmware/policy/built_in.hpp"
 #include "firmware/policy/network.hpp"
 #include "firmware/policy/proof.hpp"
 #include "tests/images/console.hpp"
-#include "firmware/loop/frame_queue.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/policy/synthetic_policy.hpp"
 
@@ -117,7 +117,7 @@ void replay(images::Recording& recording) {
   loop::FrameQueue bus;
   loop::SyncTicks sync;
   loop::TickLoop<loop::BuiltInNode, loop::FrameQueue&, loop::SyncTicks&> loop(loop::built_in_robot, bus,
-                                                                                sync);
+                                                                              sync);
   proof::Fnv1a hash;
   images::RecordedFrame recorded;
   std::int64_t ticks = 0;

@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 import unittest
 
@@ -23,6 +24,7 @@ FAULT_REPORT, MODE_COMMAND, WHEEL_COMMAND, WHEEL_STATE, STATUS, SYNC = (
     striker_dbc.identifier(name) for name in ("FaultReport", "ModeCommand", "WheelCommand", "WheelState", "Status", "Sync"))
 STANDBY, ACTIVE = (striker_dbc.value("Status", "state", name) for name in ("standby", "active"))
 SYNC_LOST = striker_dbc.value("FaultReport", "code", "sync_lost")
+NOT_DRIVEN = 3  # striker-sil kick
 ERROR_FLAG, ERROR_BUS_OFF = 0x20000000, 0x40  # linux/can.h, linux/can/error.h
 
 
@@ -121,7 +123,8 @@ class Vcan(files_case.FilesCase):
         second = firmware()
         _, told = simulator.communicate(timeout=120)
         stop(second)
-        self.assertEqual(simulator.returncode, 0, told)
+        self.assertEqual(simulator.returncode, NOT_DRIVEN, told)
+        self.assertRegex(told, r"[12] of 12 episodes were played without a controller that drove all along")
         self.assertIn("running on unanswered", told)
         self.assertIn("answers again", told)
         self.check_silence(read_log(self.file("a.log")))
@@ -213,7 +216,7 @@ class Vcan(files_case.FilesCase):
         result = run("striker-sil", "kick", "--bus", "can:vcan0", "--realtime", "--episodes", "2", "--log",
                      self.file("a.log"))
         out, told = stop(process)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(result.returncode, (0, NOT_DRIVEN), result.stderr)  # a machine that stalls makes faults
         self.assertRegex(result.stdout, r"simulator's clock: \d+ ticks, \d+ periods missed, lateness mean")
         self.assertRegex(out, r"stopped after \d+ ticks; \d+ periods missed; lateness mean .* max")
         state = None
@@ -236,9 +239,11 @@ class Vcan(files_case.FilesCase):
     def test_a_recorded_run_on_the_wall_clock_arms_no_other_controller(self):
         process = firmware("realtime")
         try:
-            self.kick("a.log", "--bus", "can:vcan0", "--realtime")
+            result = run("striker-sil", "kick", "--bus", "can:vcan0", "--realtime", "--episodes", "2", "--log",
+                         self.file("a.log"))
         finally:
             stop(process)
+        self.assertIn(result.returncode, (0, NOT_DRIVEN), result.stderr)
         recorded = read_log(self.file("a.log"))
         self.assertTrue(any(identifier == WHEEL_COMMAND and moves(payload) for _, identifier, payload in recorded))
         with open(self.file("world.log"), "w", encoding="ascii") as stream:
@@ -292,9 +297,13 @@ class Vcan(files_case.FilesCase):
         process = firmware()
         simulator = program("striker-sil", "kick", "--episodes", "50", "--bus", "can:vcan0", "--answer-timeout", "200")
         time.sleep(3)
+        # Read all the time: a queue that is full drops the newest.
+        frames = []
         with listening() as bus:
+            reader = threading.Thread(target=lambda: frames.extend(collect(bus, 3)))
+            reader.start()
             stop(process)
-            frames = collect(bus, 0.3)
+            reader.join()
         simulator.kill()
         simulator.communicate()
         commands = [payload for identifier, payload in frames if identifier == WHEEL_COMMAND]
