@@ -187,7 +187,7 @@ class Vcan(files_case.FilesCase):
             for name in ("EmergencyStop", "ModeCommand", "WheelState", "VisionPose", "VisionBall"):
                 send(bus, striker_dbc.identifier(name), bytes(striker_dbc.length(name)))
                 send(bus, striker_dbc.identifier(name), b"\x01")
-            time.sleep(0.3)
+            time.sleep(1)
         status = run("striker-command", "--can", "vcan0", "status")
         stop(process)
         self.assertIn("state standby, fault none", status.stdout)
