@@ -98,7 +98,10 @@ extern "C" void start() {
 extern "C" [[noreturn, gnu::used]] void take_exception(std::uint32_t vector, std::uint32_t link,
                                                        const std::uint32_t* stack) {
   using namespace striker::bare_metal;
-  const bool overflow = stack < &stack_bottom || !stack_is_intact();
+  // The push that aborts leaves the stack pointer above the guard, by 16 words or 16 double ones at most.
+  constexpr std::uint32_t longest_push_words = 32;
+  const bool pushed_into_guard = vector == data_abort && stack - longest_push_words < &stack_bottom;
+  const bool overflow = stack < &stack_bottom || pushed_into_guard || !stack_is_intact();
   const FaultCause other = overflow ? FaultCause::stack_overflow : FaultCause::exception;
   end_by_fault({.cause = watchdog_has_expired() ? FaultCause::watchdog : other,
                 .exception = vector,
