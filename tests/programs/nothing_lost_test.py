@@ -97,6 +97,14 @@ class Files(files_case.FilesCase):
         with open(plan, encoding="utf-8") as stream:
             self.assertIn("error_passive", stream.read())
 
+    def test_an_export_does_not_write_over_its_model(self):
+        model = self.file("m.safetensors", "a model")
+        result = run("striker-export", model, "-o", model)
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertIn("name two files", result.stderr)
+        with open(model, encoding="utf-8") as stream:
+            self.assertEqual(stream.read(), "a model")
+
     def test_where_nothing_can_be_written_is_said_before_the_run(self):
         os.mkdir(self.file("folder"))
         for path, word in ((self.file("none/a.json"), "there is no folder"), (self.file("folder"), "is a folder"),

@@ -95,7 +95,8 @@ int main(int argc, char** argv) {
   app.add_option("--speed-cell", options.speed_cell_mm_s, "grid of the search, mm/s, 5 to 500")
       ->check(CLI::Range(5.0, 500.0))
       ->capture_default_str();
-  app.add_option("--json", options.json, "write the figures to this file");
-  app.add_option("--csv", options.csv, "write a row an episode to this file, with the actions");
+  striker::host::writes_file(app.add_option("--json", options.json, "write the figures to this file"));
+  striker::host::writes_file(
+      app.add_option("--csv", options.csv, "write a row an episode to this file, with the actions"));
   return striker::host::run(app, argc, argv, [&] { return find_ceiling(options); });
 }

@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
       "in float32.",
       "striker-evaluate");
   Options options;
-  app.add_option("--model", options.model, "safetensors file")->required();
+  striker::host::reads_file(app.add_option("--model", options.model, "safetensors file"))->required();
   auto* episodes = app.add_option("--episodes", options.episodes, "how many, 1 to 10000000")
                        ->check(CLI::Range(1, 10'000'000));
   auto* seed = app.add_option("--seed", options.seed, "of the episodes")->check(CLI::NonNegativeNumber);
@@ -123,8 +123,9 @@ int main(int argc, char** argv) {
   app.add_option("--world", options.world, "full: wheel bodies (the reference); fast: the training's world")
       ->check(CLI::IsMember({"full", "fast"}))
       ->capture_default_str();
-  auto* decisions = app.add_option("--decisions", options.decisions, "CSV file of a controller's decisions");
-  app.add_option("--json", options.json, "write the figures to this file");
+  auto* decisions = striker::host::reads_file(
+      app.add_option("--decisions", options.decisions, "CSV file of a controller's decisions"));
+  striker::host::writes_file(app.add_option("--json", options.json, "write the figures to this file"));
   episodes->needs(seed)->excludes(decisions);
   return striker::host::run(app, argc, argv, [&] {
     if (!*episodes && !*decisions) {

@@ -87,8 +87,9 @@ int main(int argc, char** argv) {
       "range, headroom and error of each layer, and how far the integer network agrees with the float.",
       "striker-export");
   Options options;
-  app.add_option("MODEL", options.model, "safetensors file")->required();
-  app.add_option("-o,--output", options.header, "the header to write")->required();
+  striker::host::reads_file(app.add_option("MODEL", options.model, "safetensors file"))->required();
+  striker::host::writes_file(app.add_option("-o,--output", options.header, "the header to write"))
+      ->required();
   app.add_option("--name", options.name, "the policy's name in C++ (default: that of the output file)");
   app.add_option(
       "--network", options.network,
@@ -98,6 +99,7 @@ int main(int argc, char** argv) {
   app.add_option("--weights", options.weights, "int16, or int8: half the flash, less precise")
       ->check(CLI::IsMember({"int16", "int8"}))
       ->capture_default_str();
-  app.add_option("--report", options.report, "write the figures to this JSON file");
+  striker::host::writes_file(
+      app.add_option("--report", options.report, "write the figures to this JSON file"));
   return striker::host::run(app, argc, argv, [&options] { return export_to(options); });
 }
