@@ -223,7 +223,7 @@ class Controller {
     if (percepts.ball) {
       estimator.take(*percepts.ball, now_.tick);
     }
-    const PictureResult result = estimator.end_tick(now_.robot, now_.tick, now_.odometry);
+    const PictureResult result = estimator.end_tick(now_.robot, now_.odometry);
     now_.vigilance.see_picture(result, estimator.picture_tick(), now_.tick);
     now_.has_velocity = static_cast<std::uint32_t>(estimator.has_velocity());
     now_.new_picture =

@@ -19,9 +19,11 @@ struct RobotDescription {
   std::int32_t body_mass_g;
   std::int32_t wheel_mass_g;  // each: a solid cylinder
   std::int32_t wheel_radius_um;
-  std::int32_t axle_length_um;      // between the wheels' centres
-  std::int32_t torque_limit_mNm;    // of each wheel
-  std::int32_t top_rim_speed_mm_s;  // of each wheel
+  std::int32_t axle_length_um;               // between the wheels' centres
+  std::int32_t torque_limit_mNm;             // of each wheel
+  std::int32_t top_rim_speed_mm_s;           // of each wheel
+  std::int32_t camera_latency_ms = 0;        // from a picture to its frames: 0 to 50
+  std::int32_t tyre_friction_percent = 300;  // Coulomb, between tyre and floor: 300 is a coefficient of 3.0
 };
 
 // The AI Soccer roles (AI World Cup test_world, branch master 37312a93).
@@ -50,7 +52,9 @@ struct RobotProfile {
   std::int32_t overspeed_mm_s = 0;      // a wheel this fast must not be driven further
   std::int32_t kp_q8 = 0;               // of the wheel loops: mNm for a mm/s
   std::int32_t ki_tick_q16 = 0;         // mNm for a mm/s and a tick
-  std::int32_t turn_q12 = 0;            // binary angle for a um that the right rim is ahead of the left
+  std::int32_t slip_gain_q12 = 0;  // the most that a mNm on both wheels adds in a tick, in mm/s: gripping
+  std::int32_t camera_latency_ticks = 0;
+  std::int32_t turn_q12 = 0;  // binary angle for a um that the right rim is ahead of the left
 
   bool operator==(const RobotProfile&) const = default;
 };
@@ -63,6 +67,9 @@ inline constexpr std::int64_t crossover_rad_s = 100;
 inline constexpr std::int64_t integral_corner_rad_s = 10;
 
 inline constexpr std::int64_t overspeed_percent = 115;
+
+// A robot a third lighter than described, or as much stronger, still grips.
+inline constexpr std::int64_t grip_percent = 150;
 
 // numerator / denominator to the nearest.
 constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denominator) {
@@ -87,6 +94,9 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
           .overspeed_mm_s = rounded_ratio(overspeed_percent * robot.top_rim_speed_mm_s, 100),
           .kp_q8 = rounded_ratio(256 * kp_e9, e9),
           .ki_tick_q16 = rounded_ratio(65'536 * integral_corner_rad_s * kp_e9, ticks_a_second * e9),
+          .slip_gain_q12 = rounded_ratio(4'096 * grip_percent * 2'000'000 / 100,
+                                         std::int64_t{robot.wheel_radius_um} * moved_mass_g),
+          .camera_latency_ticks = robot.camera_latency_ms,
           .turn_q12 = rounded_ratio(4'096 * circle_um_e3, 1'000 * std::int64_t{robot.axle_length_um})};
 }
 
@@ -101,6 +111,11 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
     return false;
   }
   constexpr std::int64_t greatest = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int32_t greatest_camera_latency_ticks = 50;
+  if (robot.camera_latency_ticks < 0 || robot.camera_latency_ticks > greatest_camera_latency_ticks ||
+      robot.slip_gain_q12 < 0 || std::int64_t{robot.slip_gain_q12} * robot.torque_limit_mNm > greatest) {
+    return false;
+  }
   const std::int32_t error_mm_s = greatest_measured_mm_s + robot.top_rim_speed_mm_s;
   const std::int32_t integrated_mm_s = (2 * robot.torque_limit_mNm + 2) * 256 / robot.kp_q8 + 1;
   return std::int64_t{error_mm_s} * robot.kp_q8 <= greatest &&
@@ -116,8 +131,10 @@ static_assert(loops_fit(profile_of(forward)) && loops_fit(profile_of(defender)) 
 static_assert(profile_of(forward) == RobotProfile{.torque_limit_mNm = 400,
                                                   .top_rim_speed_mm_s = 2550,
                                                   .overspeed_mm_s = 2933,
-                                                  .kp_q8 = 922,         // 3.6 mNm/(mm/s)
-                                                  .ki_tick_q16 = 2359,  // 36 mNm/(mm/s)/s at 1 kHz
+                                                  .kp_q8 = 922,          // 3.6 mNm/(mm/s)
+                                                  .ki_tick_q16 = 2359,   // 36 mNm/(mm/s)/s at 1 kHz
+                                                  .slip_gain_q12 = 171,  // 0.0417 mm/s
+                                                  .camera_latency_ticks = 0,
                                                   .turn_q12 = 305});
 
 }  // namespace striker::core

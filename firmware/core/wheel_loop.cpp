@@ -7,10 +7,11 @@ namespace striker::core {
 
 std::int32_t WheelLoop::step(const RobotProfile& robot, std::int32_t set_point_mm_s,
                              std::int32_t measured_mm_s) {
-  const std::int32_t limit_mNm = robot.torque_limit_mNm;
+  const std::int32_t limit_mNm = slip_.limit(robot, measured_mm_s);
   const std::int32_t error_mm_s = set_point_mm_s - measured_mm_s;
   const std::int32_t wanted_mNm = ((error_mm_s * robot.kp_q8) >> 8) + (integral_q16_ >> 16);
   const std::int32_t torque_mNm = std::clamp(wanted_mNm, -limit_mNm, limit_mNm);
+  slip_.gave(torque_mNm);
   const bool winds_up =
       (wanted_mNm > limit_mNm && error_mm_s > 0) || (wanted_mNm < -limit_mNm && error_mm_s < 0);
   if (!winds_up) {

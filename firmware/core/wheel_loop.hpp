@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wheel-speed loops: a PI controller for each wheel, once a tick (1 kHz), from rim speed to torque, with a
-// torque limit and anti-windup by conditional integration. Gains and limit are the robot's (RobotProfile).
+// torque limit, a slip limiter (slip_limiter.hpp), and anti-windup by conditional integration. Gains and limit are the
+// robot's (RobotProfile).
 #pragma once
 
 #include <cstdint>
 
 #include "firmware/core/actions.hpp"
 #include "firmware/core/robot_profile.hpp"
+#include "firmware/core/slip_limiter.hpp"
 
 namespace striker::core {
 
@@ -18,6 +20,7 @@ class WheelLoop {
 
  private:
   std::int32_t integral_q16_ = 0;  // mNm in Q16
+  SlipLimiter slip_;
 };
 
 class WheelLoops {

@@ -63,6 +63,10 @@ class InProcessLink final : public ControllerLink {
  public:
   static constexpr std::uint32_t sync_timeout_ticks = 200;
 
+  // A controller that was told of this robot.
+  explicit InProcessLink(const core::RobotProfile& robot) : loop_(robot, {}, {}) {}
+  InProcessLink() : InProcessLink(loop::built_in_robot) {}
+
   void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
   void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
@@ -86,7 +90,7 @@ class InProcessLink final : public ControllerLink {
     return std::as_writable_bytes(std::span(const_cast<Part*>(&part), 1));
   }
 
-  loop::TickLoop<loop::BuiltInNode, MemoryBus, loop::SyncTicks> loop_{loop::built_in_robot, {}, {}};
+  loop::TickLoop<loop::BuiltInNode, MemoryBus, loop::SyncTicks> loop_;
   std::uint32_t ticks_without_sync_ = 0;
   bool stands_still_ = false;
 };

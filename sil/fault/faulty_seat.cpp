@@ -13,6 +13,7 @@
 #include "sil/fault/sensor/camera_faults.hpp"
 #include "sil/fault/sensor/drive_faults.hpp"
 #include "sil/fault/sensor/plant_faults.hpp"
+#include "sil/robot/plant_variation.hpp"
 #include "sil/world/random_streams.hpp"
 
 namespace striker::sil {

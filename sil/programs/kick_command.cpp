@@ -22,7 +22,9 @@
 #include "sil/record/episode_journal.hpp"
 #include "sil/record/episode_progress.hpp"
 #include "sil/record/pacer.hpp"
+#include "sil/robot/robot_file.hpp"
 #include "sil/robot/striker_drives.hpp"
+#include "sil/robot/variation.hpp"
 #include "sil/scenario/kick_scenario.hpp"
 #include "sil/task/kick_report.hpp"
 
@@ -42,11 +44,15 @@ struct Bus {
   [[nodiscard]] ControllerLink& link() const { return timed ? *timed : untimed(); }
 };
 
+core::RobotDescription robot_of(const KickOptions& options) {
+  return options.robot.empty() ? core::forward : read_robot(options.robot);
+}
+
 Bus open_bus(const KickOptions& options) {
   Bus bus;
   const std::string interface = interface_of(options.bus);
   if (options.in_process()) {
-    bus.in_process = std::make_unique<InProcessLink>();
+    bus.in_process = std::make_unique<InProcessLink>(core::profile_of(robot_of(options)));
   } else if (options.real_time) {
     bus.socket = std::make_unique<FreeRunningLink>(interface);
   } else {
@@ -92,17 +98,22 @@ class KickSession {
  public:
   KickSession(const KickOptions& options, const Bus& bus, const std::vector<Observer*>& observers)
       : options_(&options),
-        plant_(make_plant(plant_kind_of(options.plant).value(), 0, Role::forward)),
+        variation_(variation_of(options.vary)),
+        robot_(robot_of(options)),
+        plants_(make_plants(plant_kind_of(options.plant).value(), spec_of(robot_), variation_)),
+        camera_(make_camera(variation_, options.seed)),
         seat_({.robot = 0,
-               .plant = *plant_,
+               .plant = *plants_.back(),
                .drives = drives_,
-               .camera = camera_,
+               .camera = *camera_,
                .link = bus.link(),
                .lockstep = !options.real_time || options.in_process()}),
         scenario_({.pose = options.pose == "anywhere" ? PoseMode::anywhere : PoseMode::origin,
                    .seed = options.seed,
                    .first_episode = options.first,
                    .episodes = options.episodes,
+                   .place = varied({.robot = spec_of(robot_)}, variation_),
+                   .vision_latency_ticks = latency_ms(),
                    .needs_controller = options.real_time},
                   seat_, observers) {}
 
@@ -129,6 +140,8 @@ class KickSession {
                   .first_episode = options_->first,
                   .plant = options_->plant,
                   .pose = options_->pose,
+                  .robot = options_->robot,
+                  .variation = options_->vary,
                   .policy = scenario_.policy(),
                   .simulated_s = scenario_.simulated_s(),
                   .wall_s = wall.count(),
@@ -140,9 +153,16 @@ class KickSession {
 
  private:
   const KickOptions* options_;
-  std::unique_ptr<Plant> plant_;
+  // As varied, or as described.
+  [[nodiscard]] std::uint32_t latency_ms() const {
+    return variation_.vision_latency_ms.value_or(static_cast<std::uint32_t>(robot_.camera_latency_ms));
+  }
+
+  Variation variation_;
+  core::RobotDescription robot_;
+  std::vector<std::unique_ptr<Plant>> plants_;
   StrikerDrives drives_;
-  ExactCamera camera_{0};
+  std::unique_ptr<Camera> camera_;
   Seat seat_;
   KickScenario scenario_;
 };

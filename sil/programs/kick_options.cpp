@@ -28,6 +28,14 @@ void define_episodes(CLI::App& kick, KickOptions& options) {
   kick.add_option("--pose", options.pose, "where the robot stands")
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();
+  host::reads_file(
+      kick.add_option("--robot", options.robot,
+                      "the robot's description, for controller and world (inproc); default: a forward, "
+                      "firmware/robots/forward.toml"));
+  kick.add_option(
+      "--vary", options.vary,
+      "another robot than the controller was told: mass=0.9,friction=0.5,vision_latency_ms=35 (shares: mass, "
+      "torque, friction, ball_damping; vision_noise_mm, vision_latency_ms, command_delay_ms)");
   kick.add_option("--episodes", options.episodes, "how many")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{900000}))
       ->capture_default_str();
@@ -94,6 +102,10 @@ void define(CLI::App& kick, KickOptions& options) {
 void require_sound(const KickOptions& options) {
   if (options.real_time && !options.in_process() && options.bitrate != 0) {
     throw std::runtime_error("--bitrate is for lockstep: leave out --realtime, or use --bus inproc");
+  }
+  if (!options.robot.empty() && !options.in_process()) {
+    throw std::runtime_error(
+        "--robot is for --bus inproc: a controller on a bus is told of its robot when it is built");
   }
   if (!options.decisions.empty() && !options.in_process()) {
     throw std::runtime_error("--decisions reads the controller's own state: use it with --bus inproc");

@@ -18,6 +18,8 @@ struct KickOptions {
   std::string bus = "inproc";
   std::string plant = "drive";
   std::string pose = "origin";
+  std::string robot;
+  std::string vary;
   std::uint64_t episodes = 20;
   std::uint64_t first = 0;
   std::uint64_t seed = 1;

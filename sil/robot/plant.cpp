@@ -43,8 +43,10 @@ class ServoPlant final : public Plant {
 
 class DrivePlant final : public Plant {
  public:
-  DrivePlant(std::size_t robot, double torque_ceiling_Nm)
-      : robot_(robot), torque_ceiling_Nm_(torque_ceiling_Nm) {}
+  DrivePlant(std::size_t robot, const RobotSpec& spec)
+      : robot_(robot),
+        torque_ceiling_Nm_(spec.max_wheel_torque_Nm),
+        count_m_(2.0 * std::numbers::pi * spec.wheel_radius_m / 16384.0) {}
 
   [[nodiscard]] std::uint32_t ticks_per_step() const override { return 1; }
   void reset() override { channels_ = {}; }
@@ -62,8 +64,8 @@ class DrivePlant final : public Plant {
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       Channel& channel = channels_[i];
       channel.travel_m += world.rim_speed_m_s(robot_, wheels[i]) * step_s;
-      const double counts = std::floor(channel.travel_m / count_m);
-      channel.speed_m_s = (counts - channel.counts) * count_m / step_s;
+      const double counts = std::floor(channel.travel_m / count_m_);
+      channel.speed_m_s = (counts - channel.counts) * count_m_ / step_s;
       channel.counts = counts;
     }
   }
@@ -81,11 +83,11 @@ class DrivePlant final : public Plant {
   };
 
   static constexpr double step_s = tick_s;
-  static constexpr double count_m = 2.0 * std::numbers::pi * wheel_radius_m / 16384.0;
   static constexpr double current_loop_gain = 0.6321205588285577;  // 1 - exp(-1 ms / 1 ms)
 
   std::size_t robot_;
   double torque_ceiling_Nm_;
+  double count_m_;  // of the rim, for one of the encoder
   std::array<Channel, 2> channels_;
 };
 
@@ -97,12 +99,11 @@ std::optional<PlantKind> plant_kind_of(std::string_view name) {
   return found == plant_kinds.end() ? std::nullopt : std::optional(*found);
 }
 
-std::unique_ptr<Plant> make_plant(PlantKind kind, std::size_t robot, Role role) {
-  const double torque_ceiling_Nm = robot_spec(role).max_wheel_torque_Nm;
+std::unique_ptr<Plant> make_plant(PlantKind kind, std::size_t robot, const RobotSpec& spec) {
   if (kind == PlantKind::servo) {
-    return std::make_unique<ServoPlant>(robot, torque_ceiling_Nm);
+    return std::make_unique<ServoPlant>(robot, spec.max_wheel_torque_Nm);
   }
-  return std::make_unique<DrivePlant>(robot, torque_ceiling_Nm);
+  return std::make_unique<DrivePlant>(robot, spec);
 }
 
 }  // namespace striker::sil

@@ -59,7 +59,7 @@ class Plant {
   [[nodiscard]] virtual RimSpeeds measured() const = 0;
 };
 
-// For robot number `robot` of the world, with the torque ceiling of its role.
-[[nodiscard]] std::unique_ptr<Plant> make_plant(PlantKind kind, std::size_t robot, Role role);
+// For robot number `robot` of the world, with the wheels and the torque ceiling of this one.
+[[nodiscard]] std::unique_ptr<Plant> make_plant(PlantKind kind, std::size_t robot, const RobotSpec& spec);
 
 }  // namespace striker::sil

@@ -7,15 +7,16 @@ namespace striker::sil {
 
 Seat::Seat(const SeatParts& parts) : parts_(parts) {}
 
-void Seat::take_picture(const World& world) {
-  for (const can::Frame& frame : vision_.frames(parts_.camera.look(world))) {
-    queue(frame);
-  }
+void Seat::take_picture(const World& world, std::uint32_t tick, std::uint32_t latency_ticks) {
+  late_.push_back({tick + latency_ticks, vision_.frames(parts_.camera.look(world))});
 }
 
 void Seat::begin_tick(std::uint32_t tick) {
   answer_.clear();
   traffic_.clear();
+  for (; !late_.empty() && late_.front().tick <= tick; late_.pop_front()) {
+    queued_.insert(queued_.end(), late_.front().frames.begin(), late_.front().frames.end());
+  }
   if (tick != 0) {
     parts_.drives.report(parts_.plant.measured(), tick, queued_);
   }

@@ -11,8 +11,10 @@
 // a fault is another plant, drives, camera or link in the same place.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -41,13 +43,17 @@ class Seat {
 
   // Sent with the next `begin_tick`, in this order.
   void queue(const can::Frame& frame) { queued_.push_back(frame); }
-  void take_picture(const World& world);
+  // Its frames leave in `latency_ticks`; a robot that is placed anew forgets those that have not.
+  void take_picture(const World& world, std::uint32_t tick, std::uint32_t latency_ticks = 0);
 
   void begin_tick(std::uint32_t tick);
   void end_tick(std::uint32_t tick);
 
   // The robot was placed, at rest.
-  void reset() { parts_.plant.reset(); }
+  void reset() {
+    late_.clear();
+    parts_.plant.reset();
+  }
   void actuate(World& world, std::uint32_t tick);
   void sense(const World& world) { parts_.plant.sense(world); }
 
@@ -65,6 +71,11 @@ class Seat {
   SeatParts parts_;
   VisionSender vision_;
   can::SendCounter sync_counter_;
+  struct Late {
+    std::uint32_t tick;
+    std::array<can::Frame, 2> frames;
+  };
+  std::deque<Late> late_;
   std::vector<can::Frame> queued_;
   std::vector<can::Frame> answer_;
   std::vector<StampedFrame> traffic_;

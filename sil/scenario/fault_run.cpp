@@ -70,7 +70,7 @@ Play play(const std::vector<TimedFault>& faults, double torque_scale, const Faul
   } else {
     socket = std::make_unique<LockstepLink>(options.interface, SocketCanOptions{});
   }
-  const auto plant = make_plant(options.plant, 0, Role::forward);
+  const auto plant = make_plant(options.plant, 0, robot_spec(Role::forward));
   StrikerDrives drives;
   ExactCamera camera(0);
   FaultySeat seat({.robot = 0,

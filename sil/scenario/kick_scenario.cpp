@@ -18,7 +18,10 @@ constexpr std::uint32_t arm_tick = picture_ticks + 1;
 }  // namespace
 
 KickScenario::KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer* const> observers)
-    : plan_(plan), seat_(&seat), observers_(observers), world_(kick_world(seat.ticks_per_step() * tick_s)) {
+    : plan_(plan),
+      seat_(&seat),
+      observers_(observers),
+      world_(kick_world(seat.ticks_per_step() * tick_s, plan.place)) {
   look();
 }
 
@@ -55,7 +58,7 @@ void KickScenario::play(const std::function<bool()>& stop) {
 bool KickScenario::boot(const std::function<bool()>& stop) {
   while (tick_ < kick_boot_ticks) {
     if (tick_ % picture_ticks == 0) {
-      seat_->take_picture(world_);
+      seat_->take_picture(world_, tick_);
     }
     run_tick();
     if (stop() || operator_.controller_is_stopped()) {
@@ -83,9 +86,7 @@ bool KickScenario::play_episode(std::uint64_t episode, const std::function<bool(
     snapshot_.deciding = episode_tick >= kick_first_decision_tick && episode_tick < kick_last_tick;
     snapshot_.contact = moving_ && episode_.outcome().contact;
     give_orders(episode_tick);
-    if (episode_tick % picture_ticks == 0) {
-      seat_->take_picture(world_);
-    }
+    take_picture(episode_tick, start);
     run_tick();
     if (stop() || operator_.controller_is_stopped()) {
       return false;
@@ -125,6 +126,22 @@ void KickScenario::give_orders(std::uint32_t episode_tick) {
     seat_->queue(operator_.order(can::Mode::clear));
   } else if (episode_tick == arm_tick) {
     seat_->queue(operator_.order(can::Mode::arm));
+  }
+}
+
+// A late picture is taken as much earlier, so that it comes with its decision. Until decision 0 it shows the ball where
+// it was then; the robot stands.
+void KickScenario::take_picture(std::uint32_t episode_tick, const KickStart& start) {
+  const std::uint32_t latency_ticks = plan_.vision_latency_ticks;
+  if (episode_tick <= kick_first_decision_tick && episode_tick % picture_ticks == 0) {
+    const double ahead_s = (kick_first_decision_tick - episode_tick) * tick_s;
+    world_.place_ball(ball_before(start, ahead_s + latency_ticks * tick_s));
+    seat_->take_picture(world_, tick_);
+    world_.place_ball(ball_before(start, ahead_s));
+  }
+  if (episode_tick + latency_ticks > kick_first_decision_tick &&
+      (episode_tick + latency_ticks) % picture_ticks == 0) {
+    seat_->take_picture(world_, tick_, latency_ticks);
   }
 }
 

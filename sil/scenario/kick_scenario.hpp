@@ -36,6 +36,9 @@ struct KickPlan {
   std::uint64_t seed = 1;
   std::uint64_t first_episode = 0;
   std::uint64_t episodes = 20;
+  KickPlace place = {};  // with another robot or ball than the official ones
+  std::uint32_t vision_latency_ticks =
+      0;                          // at most a decision: pictures are taken so much before each decision
   bool needs_controller = false;  // one that says nothing during the boot is an error, as on a wall clock
 };
 
@@ -65,6 +68,7 @@ class KickScenario {
   bool play_episode(std::uint64_t episode, const std::function<bool()>& stop);
   void place(std::uint32_t episode_tick, const KickStart& start);
   void give_orders(std::uint32_t episode_tick);
+  void take_picture(std::uint32_t episode_tick, const KickStart& start);
   void run_tick();
   void watch_decisions();
   void move_world();

@@ -70,6 +70,12 @@ nlohmann::ordered_json run_json(const KickRun& run) {
                                    {"wall_s", run.wall_s},
                                    {"realtime_factor", realtime_factor(run)},
                                    {"rows", std::move(rows)}};
+  if (!run.robot.empty()) {
+    report["robot"] = run.robot;
+  }
+  if (!run.variation.empty()) {
+    report["variation"] = run.variation;
+  }
   host::stamp(report);
   return report;
 }

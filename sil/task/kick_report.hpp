@@ -16,6 +16,8 @@ struct KickRun {
   std::uint64_t first_episode = 0;  // the number of the first row
   std::string plant;                // "servo" or "drive"
   std::string pose;                 // "origin" or "anywhere"
+  std::string robot = {};           // the file of its description; empty: the built-in one
+  std::string variation = {};       // of the robot from its description, as on the command line; empty: none
   std::string policy;               // the identity of the policy or model, 8 hexadecimal digits
   double simulated_s = 0.0;
   double wall_s = 0.0;

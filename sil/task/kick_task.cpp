@@ -88,8 +88,11 @@ BallState ball_before(const KickStart& start, double ahead_s) {
           .velocity_m_s = faster * start.ball.velocity_m_s};
 }
 
-WorldConfig kick_world(double step_s) {
-  return {.robots = {Role::forward}, .walls = false, .step_s = step_s};
+WorldConfig kick_world(double step_s, const KickPlace& place) {
+  return {.robots = {place.robot},
+          .walls = false,
+          .step_s = step_s,
+          .ball_kept_after_1_s = place.ball_kept_after_1_s};
 }
 
 template <KickWorld W>

@@ -48,8 +48,14 @@ struct KickStart {
 // have seen of an episode that begins at `start`.
 [[nodiscard]] BallState ball_before(const KickStart& start, double ahead_s);
 
+// The robot and the ball that the task is played with. The defaults are the official ones.
+struct KickPlace {
+  RobotSpec robot = robot_spec(Role::forward);
+  double ball_kept_after_1_s = kept_after_1_s;  // of its speed: 0.8 in AI Soccer
+};
+
 // The world that the task is played in, at this physics step.
-[[nodiscard]] WorldConfig kick_world(double step_s);
+[[nodiscard]] WorldConfig kick_world(double step_s, const KickPlace& place = {});
 
 struct KickOutcome {
   bool contact = false;

@@ -7,8 +7,6 @@
 namespace striker::sil {
 namespace {
 
-constexpr double half_axle_m = 0.5 * axle_length_m;
-
 // The speeds along the heading and about the vertical axis.
 struct Twist {
   double speed_m_s;
@@ -21,23 +19,24 @@ constexpr bool alike(const WheelServo& a, const WheelServo& b) {
 
 // Each wheel's force moves the other rim a little, too: 10 % of its own. Solved by turns (Gauss-Seidel), a
 // hundred times nearer each time.
-Twist turning(const Twist& before, const WheelServos& servos, double step_s) {
+Twist turning(const Twist& before, const PlanarModel& model, const WheelServos& servos, double step_s) {
   constexpr int turns = 8;
-  constexpr double both = 1.0 / planar_mass_kg;
-  constexpr double lever = half_axle_m * half_axle_m / planar_inertia_kgm2;
-  constexpr double own = both + lever;
-  constexpr double other = both - lever;
+  const double half_axle_m = model.half_axle_m;
+  const double both = 1.0 / model.mass_kg;
+  const double lever = half_axle_m * half_axle_m / model.inertia_kgm2;
+  const double own = both + lever;
+  const double other = both - lever;
   const std::array wanted = {
       servos[0].rim_speed_m_s - (before.speed_m_s - half_axle_m * before.yaw_rate_rad_s),
       servos[1].rim_speed_m_s - (before.speed_m_s + half_axle_m * before.yaw_rate_rad_s)};
-  const std::array limits = {rim_force_limit_N(servos[0]), rim_force_limit_N(servos[1])};
+  const std::array limits = {rim_force_limit_N(model, servos[0]), rim_force_limit_N(model, servos[1])};
   std::array force_N = {0.0, 0.0};
   for (int i = 0; i < turns; ++i) {
     force_N[0] = std::clamp((wanted[0] / step_s - other * force_N[1]) / own, -limits[0], limits[0]);
     force_N[1] = std::clamp((wanted[1] / step_s - other * force_N[0]) / own, -limits[1], limits[1]);
   }
-  return {before.speed_m_s + step_s * (force_N[0] + force_N[1]) / planar_mass_kg,
-          before.yaw_rate_rad_s + step_s * half_axle_m * (force_N[1] - force_N[0]) / planar_inertia_kgm2};
+  return {before.speed_m_s + step_s * (force_N[0] + force_N[1]) / model.mass_kg,
+          before.yaw_rate_rad_s + step_s * half_axle_m * (force_N[1] - force_N[0]) / model.inertia_kgm2};
 }
 
 }  // namespace
@@ -54,19 +53,20 @@ double speed_m_s(const PlanarRobot& robot) {
   return robot.velocity_m_s.x * robot.heading.x + robot.velocity_m_s.y * robot.heading.y;
 }
 
-double rim_speed_m_s(const PlanarRobot& robot, Wheel wheel) {
-  const double outwards = wheel == Wheel::left ? -half_axle_m : half_axle_m;
+double rim_speed_m_s(const PlanarRobot& robot, const PlanarModel& model, Wheel wheel) {
+  const double outwards = wheel == Wheel::left ? -model.half_axle_m : model.half_axle_m;
   return speed_m_s(robot) + outwards * robot.yaw_rate_rad_s;
 }
 
-void step(PlanarRobot& robot, const WheelServos& servos, double step_s, double kept) {
+void step(PlanarRobot& robot, const PlanarModel& model, const WheelServos& servos, double step_s,
+          double kept) {
   Twist twist{speed_m_s(robot), robot.yaw_rate_rad_s};
   if (twist.yaw_rate_rad_s == 0.0 && alike(servos[0], servos[1])) {
-    twist.speed_m_s = straight_speed_m_s(twist.speed_m_s, servos[0], step_s);
+    twist.speed_m_s = straight_speed_m_s(twist.speed_m_s, servos[0], step_s, model);
   } else {
     twist.yaw_rate_rad_s *=
-        (planar_own_inertia_kgm2 + planar_wheel_inertia_kgm2 * robot.turned_cos) / planar_inertia_kgm2;
-    twist = turning(twist, servos, step_s);
+        (model.own_inertia_kgm2 + model.wheel_inertia_kgm2 * robot.turned_cos) / model.inertia_kgm2;
+    twist = turning(twist, model, servos, step_s);
   }
   const Vec2 velocity{twist.speed_m_s * robot.heading.x, twist.speed_m_s * robot.heading.y};
   robot.pose.x_m += step_s * velocity.x;

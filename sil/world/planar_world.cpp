@@ -21,7 +21,7 @@ constexpr double box_height_m = robot_top_m - robot_bottom_m;
 // Robot and ball in ODE, for the time after the first contact.
 class Collision {
  public:
-  explicit Collision(double step_s);
+  Collision(const WorldConfig& config, const PlanarModel& model);
 
   void begin(const PlanarRobot& robot, const BallState& ball);
   // The contact's normal, if the robot's body met the ball.
@@ -31,6 +31,7 @@ class Collision {
  private:
   void roll(const WheelServo& servo, double side_m);
 
+  PlanarModel model_;
   double step_s_;
   OdeWorld world_;
   Contacts contacts_;
@@ -42,21 +43,22 @@ class Collision {
   dSurfaceParameters tyre_;
 };
 
-Collision::Collision(double step_s)
-    : step_s_(step_s),
-      world_(step_s),
-      contacts_(world_.get(), step_s),
+Collision::Collision(const WorldConfig& config, const PlanarModel& model)
+    : model_(model),
+      step_s_(config.step_s),
+      world_(config.step_s),
+      contacts_(world_.get(), config.step_s),
       wheels_(dJointGroupCreate(0)),
       field_(make_field(false)),
       robot_(dBodyCreate(world_.get())),
       box_(dCreateBox(nullptr, robot_side_m, robot_side_m, box_height_m)),
-      ball_(make_ball(world_.get())),
-      tyre_(surface(Pair::floor_wheel, step_s)) {
+      ball_(make_ball(world_.get(), config.ball_kept_after_1_s, config.step_s)),
+      tyre_(surface(Pair::floor_wheel, config.step_s)) {
   // So much inertia that nothing tilts it.
   constexpr double upright_kgm2 = 1e3;
   dMass mass;
-  dMassSetParameters(&mass, planar_mass_kg, 0.0, 0.0, 0.0, upright_kgm2, upright_kgm2, planar_inertia_kgm2,
-                     0.0, 0.0, 0.0);
+  dMassSetParameters(&mass, model.mass_kg, 0.0, 0.0, 0.0, upright_kgm2, upright_kgm2, model.inertia_kgm2, 0.0,
+                     0.0, 0.0);
   dBodySetMass(robot_, &mass);
   dBodySetGyroscopicMode(robot_, 0);
   dGeomSetBody(box_.get(), robot_);
@@ -81,7 +83,7 @@ void Collision::begin(const PlanarRobot& robot, const BallState& ball) {
 void Collision::roll(const WheelServo& servo, double side_m) {
   dContact contact{};
   contact.surface = tyre_;
-  contact.surface.mu = rim_force_limit_N(servo);
+  contact.surface.mu = rim_force_limit_N(model_, servo);
   contact.surface.motion1 = servo.rim_speed_m_s;
   const dReal* rotation = dBodyGetRotation(robot_);
   const dReal* position = dBodyGetPosition(robot_);
@@ -101,8 +103,8 @@ std::optional<Vec2> Collision::step(const WheelServos& servos) {
     normal = contact_direction(met.front(), robot_, ball_.body);
   }
   contacts_.collide(ball_.geom.get(), field_.floor.get(), Pair::floor_ball, ball_friction_axis(ball_));
-  roll(servos[0], 0.5 * axle_length_m);
-  roll(servos[1], -0.5 * axle_length_m);
+  roll(servos[0], model_.half_axle_m);
+  roll(servos[1], -model_.half_axle_m);
   dWorldStep(world_.get(), step_s_);
   contacts_.clear();
   dJointGroupEmpty(wheels_.get());
@@ -140,10 +142,17 @@ void require_robot_0(std::size_t robot) {
 }  // namespace
 
 struct PlanarWorld::Impl {
-  explicit Impl(double step) : step_s(step), kept(kept_in_step(step)), collision(step) {}
+  explicit Impl(const WorldConfig& config)
+      : step_s(config.step_s),
+        kept(kept_in_step(config.step_s)),
+        ball_kept(kept_in_step(config.step_s, config.ball_kept_after_1_s)),
+        model(planar_model(config.robots.front())),
+        collision(config, model) {}
 
   double step_s;
   double kept;
+  double ball_kept;
+  PlanarModel model;
   PlanarRobot robot;
   WheelServos servos{};
   BallState ball;
@@ -152,11 +161,16 @@ struct PlanarWorld::Impl {
   Collision collision;
 };
 
-PlanarWorld::PlanarWorld(double step_s) {
-  if (!(step_s > 0.0)) {
+PlanarWorld::PlanarWorld(double step_s) : PlanarWorld(WorldConfig{.walls = false, .step_s = step_s}) {}
+
+PlanarWorld::PlanarWorld(const WorldConfig& config) {
+  if (config.robots.size() != 1 || config.walls) {
+    throw std::invalid_argument("PlanarWorld: holds one robot on an open floor");
+  }
+  if (!(config.step_s > 0.0)) {
     throw std::invalid_argument("PlanarWorld: step_s must be greater than 0");
   }
-  impl_ = std::make_unique<Impl>(step_s);
+  impl_ = std::make_unique<Impl>(config);
 }
 
 PlanarWorld::~PlanarWorld() = default;
@@ -194,10 +208,10 @@ void PlanarWorld::step() {
     world.collision.read(world.robot, world.ball);
     return;
   }
-  sil::step(world.robot, world.servos, world.step_s, world.kept);
+  sil::step(world.robot, world.model, world.servos, world.step_s, world.kept);
   auto& [position, velocity] = world.ball;
   position = {position.x + world.step_s * velocity.x, position.y + world.step_s * velocity.y};
-  velocity = {world.kept * velocity.x, world.kept * velocity.y};
+  velocity = {world.ball_kept * velocity.x, world.ball_kept * velocity.y};
 }
 
 std::optional<Vec2> PlanarWorld::ball_contact(std::size_t robot) const {
@@ -217,7 +231,7 @@ Vec2 PlanarWorld::robot_velocity_m_s(std::size_t robot) const {
 
 double PlanarWorld::rim_speed_m_s(std::size_t robot, Wheel wheel) const {
   require_robot_0(robot);
-  return sil::rim_speed_m_s(impl_->robot, wheel);
+  return sil::rim_speed_m_s(impl_->robot, impl_->model, wheel);
 }
 
 BallState PlanarWorld::ball() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fast world of the kick task: one forward on the plane (planar_robot.hpp), the ball, an open floor. It
+// The fast world of the kick task: one robot on the plane (planar_robot.hpp), the ball, an open floor. It
 // has the interface of sil::World as far as the task needs it, and takes its place in training.
 //
 // Until robot and ball first meet nothing interacts, and a step is closed: the ball rolls on without slip.
@@ -29,7 +29,9 @@ namespace striker::sil {
 
 class PlanarWorld {
  public:
-  explicit PlanarWorld(double step_s = 0.010);
+  explicit PlanarWorld(double step_s = 0.010);  // a forward's
+  // Of one robot on an open floor; other configurations are refused (std::invalid_argument).
+  explicit PlanarWorld(const WorldConfig& config);
   ~PlanarWorld();
   PlanarWorld(PlanarWorld&&) noexcept;
   PlanarWorld& operator=(PlanarWorld&&) noexcept;

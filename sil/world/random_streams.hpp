@@ -24,12 +24,13 @@ inline constexpr std::uint64_t bootstrap = 106;     // resampled runs of an expe
 inline constexpr std::uint64_t random_rival = 107;  // index: the episode
 inline constexpr std::uint64_t faults = 201;        // what a fault draws; index: the fault's own stream
 inline constexpr std::uint64_t campaign = 202;      // which faults a campaign's run has; index: the run
+inline constexpr std::uint64_t vision_noise = 203;  // of a camera
 
 namespace detail {
 
 consteval bool all_differ() {
   std::array numbers = {ball,    pose,      weights,      exploration, sampling, calibration,
-                        dummies, bootstrap, random_rival, faults,      campaign};
+                        dummies, bootstrap, random_rival, faults,      campaign, vision_noise};
   std::sort(numbers.begin(), numbers.end());
   return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
 }

@@ -49,15 +49,16 @@ World::Impl::Impl(const WorldConfig& config)
       world(config.step_s),
       contacts(world.get(), config.step_s),
       field(make_field(config.walls)),
-      ball(make_ball(world.get())) {
-  for (const Role role : config.robots) {
-    robots.push_back(make_robot(world.get(), role));
+      ball(make_ball(world.get(), config.ball_kept_after_1_s, config.step_s)) {
+  for (const RobotSpec& spec : config.robots) {
+    robots.push_back(make_robot(world.get(), spec));
   }
 }
 
 void World::Impl::collide_robot(Robot& robot) {
   for (const GeomHandle& tyre : robot.tyres) {
-    contacts.collide(tyre.get(), field.floor.get(), Pair::floor_wheel, tyre_friction_axis(robot));
+    contacts.collide(tyre.get(), field.floor.get(), Pair::floor_wheel, tyre_friction_axis(robot),
+                     robot.spec.tyre_friction);
   }
   for (const GeomHandle& skid : robot.skids) {
     contacts.collide(skid.get(), field.floor.get(), Pair::floor_body);
@@ -93,7 +94,7 @@ void World::Impl::collide_ball_with(Robot& robot) {
   if (distance_squared(robot.body, ball.body) > reach_m * reach_m) {
     return;
   }
-  const Pair pair = robot.role == Role::goalkeeper ? Pair::goalkeeper_ball : Pair::body_ball;
+  const Pair pair = robot.spec.role == Role::goalkeeper ? Pair::goalkeeper_ball : Pair::body_ball;
   const auto met = contacts.collide(robot.box.get(), ball.geom.get(), pair);
   if (!met.empty()) {
     robot.ball_contact = contact_direction(met.front(), robot.body, ball.body);

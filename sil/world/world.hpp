@@ -14,6 +14,9 @@
 #include <optional>
 #include <vector>
 
+#include "sil/world/physics_constants.hpp"
+#include "sil/world/robot_specs.hpp"
+
 namespace striker::sil {
 
 struct Vec2 {
@@ -32,15 +35,15 @@ struct BallState {
   Vec2 velocity_m_s;
 };
 
-enum class Role { goalkeeper, defender, forward };
 enum class Wheel { left, right };
 
 struct WorldConfig {
-  std::vector<Role> robots = {Role::forward};  // one to ten
-  bool walls = true;                           // false: an open floor (the kick task)
+  std::vector<RobotSpec> robots = {robot_spec(Role::forward)};  // one to ten
+  bool walls = true;                                            // false: an open floor (the kick task)
   // Contact stiffness and damping are kept the same at any step. ODE moves a body straight on in a step: fast
   // turns strain the axles at 10 ms and come out slower (a forward told to turn at 36 rad/s turns at 18).
   double step_s = 0.010;
+  double ball_kept_after_1_s = kept_after_1_s;  // the share of its speed that damping leaves the ball
 };
 
 class World {

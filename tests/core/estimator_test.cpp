@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 namespace striker::core {
 namespace {
 
@@ -13,10 +16,11 @@ constexpr RobotProfile profile = profile_of(forward);
 struct Bench {
   Estimator estimator;
   Odometry odometry;
+  RobotProfile told = profile;
 
   PictureResult end_tick(std::uint32_t tick) {
     odometry.advance(tick);
-    return estimator.end_tick(profile, tick, odometry);
+    return estimator.end_tick(told, odometry);
   }
   [[nodiscard]] Estimate at(std::uint32_t tick) const { return estimator.at(tick, odometry); }
 
@@ -138,6 +142,39 @@ TEST(Estimator, APictureCountsFromWhenItWasReceived) {
   EXPECT_EQ(bench.estimator.picture_tick(), 50U);
   EXPECT_EQ(bench.at(80).ball_um.x, 4300 * 250 + 30 * 1500);
   EXPECT_NEAR(bench.at(80).robot_um.x, 80'000, 30);
+}
+
+// A robot that gains 11 m/s^2 and a ball that rolls, seen late: the estimate is of now all the same.
+TEST(Estimator, ALatePictureIsLedOnByTheWayTheRobotHasGoneSince) {
+  for (const std::int32_t latency_ms : {0, 7, 20, 35, 49, 50}) {
+    Bench bench;
+    bench.told.camera_latency_ticks = latency_ms;
+    std::int32_t robot_um = 0;
+    std::array<std::int32_t, 600> robot_at{};
+    PictureResult worst = PictureResult::taken;
+    for (std::uint32_t tick = 1; tick < 600; ++tick) {
+      const std::int32_t speed_mm_s = tick < 300 ? 11 * static_cast<std::int32_t>(tick) / 2
+                                                 : 1650 - 11 * (static_cast<std::int32_t>(tick) - 300);
+      robot_um += speed_mm_s;
+      robot_at.at(tick) = robot_um;
+      bench.odometry.take({speed_mm_s, speed_mm_s});
+      const std::uint32_t taken = tick - static_cast<std::uint32_t>(latency_ms);
+      if (tick > 60 && taken % 50 == 0) {
+        const std::int32_t number = static_cast<std::int32_t>(taken / 50) % 16;
+        const auto rolled_um = static_cast<std::int32_t>(taken) * 1500;
+        bench.estimator.take(RobotSighting{.picture = number, .position_um = {robot_at.at(taken), 0}}, tick);
+        bench.estimator.take(BallSighting{.picture = number, .position_um = {1'000'000 - rolled_um, 0}},
+                             tick);
+      }
+      const PictureResult result = bench.end_tick(tick);
+      worst = result == PictureResult::none ? worst : std::max(worst, result);
+      if (tick > 200) {
+        ASSERT_NEAR(bench.at(tick).robot_um.x, robot_um, 30) << latency_ms << " ms, tick " << tick;
+        ASSERT_NEAR(bench.at(tick).ball_um.x, 1'000'000 - static_cast<std::int32_t>(tick) * 1500, 30);
+      }
+    }
+    EXPECT_EQ(worst, PictureResult::taken) << latency_ms;
+  }
 }
 
 TEST(Estimator, BetweenPicturesBallAndRobotAreLedOn) {

@@ -83,13 +83,13 @@ TEST(WheelLoop, RemovesASteadyLoad) {
   EXPECT_NEAR(rig.speed_mm_s, 1000.0, 3.0);
 }
 
-// Blocked at full torque for ten seconds, then told to stop: the torque must turn round at once.
+// Blocked at full torque for ten seconds, then told to go back: the torque must turn round at once.
 TEST(WheelLoop, DoesNotWindUp) {
   WheelLoop loop;
   for (int tick = 0; tick < 10'000; ++tick) {
     EXPECT_EQ(loop.step(robot, 2550, 0), robot.torque_limit_mNm);
   }
-  EXPECT_LE(loop.step(robot, 0, 500), -robot.torque_limit_mNm + 1);
+  EXPECT_LE(loop.step(robot, -500, 0), -robot.torque_limit_mNm + 1);
 }
 
 }  // namespace

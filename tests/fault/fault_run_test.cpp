@@ -15,7 +15,7 @@ namespace {
 // The bus of one episode through a FaultySeat.
 std::vector<StampedFrame> traffic(const std::vector<TimedFault>& faults, std::uint64_t seed) {
   InProcessLink controller;
-  const auto plant = make_plant(PlantKind::drive, 0, Role::forward);
+  const auto plant = make_plant(PlantKind::drive, 0, robot_spec(Role::forward));
   StrikerDrives drives;
   ExactCamera camera(0);
   FaultySeat seat({.robot = 0,
@@ -56,7 +56,7 @@ TEST(FaultySeat, AnotherSeedIsAnotherBabble) {
 
 TEST(FaultySeat, WhatIsForAnotherBusIsRefused) {
   InProcessLink controller;
-  const auto plant = make_plant(PlantKind::drive, 0, Role::forward);
+  const auto plant = make_plant(PlantKind::drive, 0, robot_spec(Role::forward));
   StrikerDrives drives;
   ExactCamera camera(0);
   const SoundParts parts{.robot = 0,

@@ -117,7 +117,7 @@ Drive drive(FaultKind kind, double value, FaultyWheel wheel) {
   TimedFault fault = fault_of(kind, 0, 1000);
   fault.fault.value = value;
   fault.fault.wheel = wheel;
-  const auto plant = make_plant(PlantKind::drive, 0, Role::forward);
+  const auto plant = make_plant(PlantKind::drive, 0, robot_spec(Role::forward));
   std::uint32_t now = 0;
   PlantFault faulty(*plant, 0, fault, now);
   World world({.walls = false, .step_s = 0.001});

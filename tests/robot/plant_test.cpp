@@ -15,8 +15,8 @@ TEST(Plant, EveryKindHasANameOfItsOwn) {
 
 // The speed of a forward's wheels that are told to do their utmost for 20 ms, by motors of this role.
 double speed_m_s(Role role, bool cut = false) {
-  World world({.robots = {Role::forward}, .walls = false, .step_s = tick_s});
-  const auto plant = make_plant(PlantKind::drive, 0, role);
+  World world({.robots = {robot_spec(Role::forward)}, .walls = false, .step_s = tick_s});
+  const auto plant = make_plant(PlantKind::drive, 0, robot_spec(role));
   for (int i = 0; i < 20; ++i) {
     plant->actuate(world, {WheelOrder{.torque_Nm = 10.0}, WheelOrder{.torque_Nm = 10.0}}, cut);
     world.step();

@@ -42,7 +42,7 @@ std::vector<std::uint16_t> identifiers(const std::vector<can::Frame>& frames) {
 struct Robot {
   explicit Robot(ControllerLink& controller, bool lockstep = true)
       : world(kick_world(tick_s)),
-        plant(make_plant(PlantKind::drive, 0, Role::forward)),
+        plant(make_plant(PlantKind::drive, 0, robot_spec(Role::forward))),
         seat(
             {.plant = *plant, .drives = drives, .camera = camera, .link = controller, .lockstep = lockstep}) {
   }
@@ -62,7 +62,7 @@ TEST(Seat, SendsWhatIsQueuedThenTheWheelStatesAndSyncLast) {
   EXPECT_EQ(identifiers(link.sent), std::vector<std::uint16_t>{id<can::Sync>}) << "nothing was measured yet";
   robot.seat.end_tick(0);
   robot.seat.queue(console.order(can::Mode::arm));
-  robot.seat.take_picture(robot.world);
+  robot.seat.take_picture(robot.world, 1);
   robot.seat.begin_tick(1);
   EXPECT_EQ(identifiers(link.sent),
             (std::vector<std::uint16_t>{id<can::ModeCommand>, id<can::VisionPose>, id<can::VisionBall>,
@@ -117,7 +117,7 @@ TEST(Seat, ACamerasFaultForgesNoFrame) {
   robot.world.place_ball({.position_m = {1.0, 2.0}, .velocity_m_s = {}});
   ShiftedCamera shifted(robot.camera, 0.1);
   Seat seat({.plant = *robot.plant, .drives = robot.drives, .camera = shifted, .link = link});
-  seat.take_picture(robot.world);
+  seat.take_picture(robot.world, 0);
   seat.begin_tick(0);
   can::VisionPose pose;
   can::VisionBall ball;
@@ -146,7 +146,7 @@ struct Player {
       robot.seat.queue(*confirmation);
     }
     if (tick % 50 == 0) {
-      robot.seat.take_picture(robot.world);
+      robot.seat.take_picture(robot.world, 1);
     }
   }
   void finish(std::uint32_t tick) {

@@ -66,6 +66,18 @@ class GateRules : public testing::Test {
     challenge(mode, 77);
     order(mode, 77);
   }
+  void expect_belief_after(bool& kind, std::uint32_t frames) {
+    kind = false;
+    feed(20);
+    kind = true;
+    feed(frames - 1);
+    confirm(arm);
+    EXPECT_FALSE(moves());
+    confirm(clear);
+    feed();
+    confirm(arm);
+    EXPECT_TRUE(moves());
+  }
   void drive() {
     feed(13);
     confirm(arm);
@@ -150,6 +162,17 @@ TEST_F(GateRules, AChallengeLastsItsTime) {
     order(arm, 5);
     EXPECT_EQ(moves(), wait == 600);
   }
+}
+
+// A dozen steps of the wheel states' counter, three of a picture's: no fewer, and no more.
+TEST_F(GateRules, WheelStatesAreBelievedAfterTwelveSteps) {
+  expect_belief_after(sends_wheels, 13);
+}
+TEST_F(GateRules, PosesAreBelievedAfterThreeSteps) {
+  expect_belief_after(sends_poses, 4);
+}
+TEST_F(GateRules, BallsAreBelievedAfterThreeSteps) {
+  expect_belief_after(sends_balls, 4);
 }
 
 TEST_F(GateRules, WhatMovesHasWheelStatesWithinTheirTime) {

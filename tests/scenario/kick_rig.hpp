@@ -10,29 +10,39 @@
 #include <vector>
 
 #include "sil/robot/striker_drives.hpp"
+#include "sil/robot/variation.hpp"
 #include "sil/scenario/kick_scenario.hpp"
 
 namespace striker::sil {
 
 class KickRig {
  public:
-  explicit KickRig(ControllerLink& link, PlantKind kind = PlantKind::drive)
-      : plant_(make_plant(kind, 0, Role::forward)),
-        seat_({.plant = *plant_, .drives = drives, .camera = camera_, .link = link}) {}
+  // A forward, as it is varied.
+  explicit KickRig(ControllerLink& link, PlantKind kind = PlantKind::drive, const Variation& variation = {})
+      : variation_(variation),
+        plants_(make_plants(kind, robot_spec(Role::forward), variation)),
+        camera_(make_camera(variation, 1)),
+        seat_({.plant = *plants_.back(), .drives = drives, .camera = *camera_, .link = link}) {}
 
   std::vector<KickOutcome> play(
       const KickPlan& plan, const std::vector<Observer*>& observers = {},
       const std::function<bool()>& stop = [] { return false; }) {
-    KickScenario scenario(plan, seat_, observers);
+    KickPlan varied_plan = plan;
+    varied_plan.place = varied(plan.place, variation_);
+    varied_plan.vision_latency_ticks = variation_.vision_latency_ms.value_or(0);
+    KickScenario scenario(varied_plan, seat_, observers);
     scenario.run(stop);
+    undriven = scenario.undriven();
     return scenario.outcomes();
   }
 
   StrikerDrives drives;
+  std::vector<std::uint64_t> undriven;  // of the last play
 
  private:
-  std::unique_ptr<Plant> plant_;
-  ExactCamera camera_{0};
+  Variation variation_;
+  std::vector<std::unique_ptr<Plant>> plants_;
+  std::unique_ptr<Camera> camera_;
   Seat seat_;
 };
 

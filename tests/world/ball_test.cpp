@@ -13,7 +13,7 @@ namespace striker::sil {
 namespace {
 
 World field_world() {
-  return World({.robots = {Role::forward}, .walls = true, .step_s = 0.010});
+  return World({.robots = {robot_spec(Role::forward)}, .walls = true, .step_s = 0.010});
 }
 
 double speed_m_s(const BallState& ball) {
@@ -165,7 +165,7 @@ TEST(Ball, KickedItSlidesAndTheFloorSlowsIt) {
 
 TEST(Ball, AGoalkeeperGivesLessBackThanAForward) {
   const auto returned_m_s = [](Role role) {
-    World world({.robots = {role}, .walls = false, .step_s = 0.010});
+    World world({.robots = {robot_spec(role)}, .walls = false, .step_s = 0.010});
     world.place_robot(0, {});
     world.place_ball({.position_m = {0.5, 0.0}, .velocity_m_s = {-2.0, 0.0}});
     drive(world, 0, 0.0, 0.0, 0.4);

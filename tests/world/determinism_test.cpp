@@ -64,7 +64,7 @@ Trace played(World& world, std::size_t robots) {
 TEST(Determinism, APlacedWorldIsAsNew) {
   for (const std::size_t robots : {1U, 4U, 10U}) {
     const WorldConfig config{
-        .robots = std::vector<Role>(robots, Role::forward), .walls = true, .step_s = 0.010};
+        .robots = std::vector<RobotSpec>(robots, robot_spec(Role::forward)), .walls = true, .step_s = 0.010};
     World fresh(config);
     World used(config);
     place_all(used, robots);
@@ -87,7 +87,8 @@ TEST(Determinism, APlacedRobotForgetsItsContact) {
 }
 
 TEST(Determinism, WorldsDoNotTouchEachOther) {
-  const WorldConfig config{.robots = {Role::forward, Role::goalkeeper}, .walls = true, .step_s = 0.010};
+  const WorldConfig config{
+      .robots = {robot_spec(Role::forward), robot_spec(Role::goalkeeper)}, .walls = true, .step_s = 0.010};
   World alone(config);
   const Trace expected = played(alone, 2);
   World a(config);
@@ -120,7 +121,8 @@ TEST(Determinism, AnEpisodeAloneEqualsItAfterAThousandOthers) {
 }
 
 TEST(Determinism, TenRobotsStayOnTheField) {
-  World world({.robots = std::vector<Role>(10, Role::forward), .walls = true, .step_s = 0.010});
+  World world(
+      {.robots = std::vector<RobotSpec>(10, robot_spec(Role::forward)), .walls = true, .step_s = 0.010});
   place_all(world, 10);
   Trace trace;
   for (int step = 0; step < 500; ++step) {
@@ -162,7 +164,8 @@ TEST(Determinism, TheSolverNeverGivesUp) {
 
 TEST(Determinism, RefusesAnImpossibleWorld) {
   EXPECT_THROW(World({.robots = {}}), std::invalid_argument);
-  EXPECT_THROW(World({.robots = std::vector<Role>(11, Role::forward)}), std::invalid_argument);
+  EXPECT_THROW(World({.robots = std::vector<RobotSpec>(11, robot_spec(Role::forward))}),
+               std::invalid_argument);
   EXPECT_THROW(World(kick_world(0.0)), std::invalid_argument);
 }
 

@@ -13,7 +13,7 @@ namespace {
 // Rim force over the mass to be moved: the wheels' spin counts half their mass.
 double acceleration_m_s2(double torque_Nm) {
   const RobotSpec spec = robot_spec(Role::forward);
-  return 2.0 * torque_Nm / wheel_radius_m / (spec.body_mass_kg + 3.0 * spec.wheel_mass_kg);
+  return 2.0 * torque_Nm / spec.wheel_radius_m / (spec.body_mass_kg + 3.0 * spec.wheel_mass_kg);
 }
 
 TEST(Driving, ForwardIsLimitedByTheTorqueCeiling) {
@@ -82,14 +82,15 @@ TEST(Driving, OppositeWheelsTurnOnTheSpot) {
     run(world, 0.1);
     const double rate_rad_s =
         std::remainder(world.robot_pose(0).heading_rad - before_rad, 2.0 * std::numbers::pi) / 0.1;
-    EXPECT_NEAR(rate_rad_s, 2.0 * rim_speed_m_s / axle_length_m, 0.03 * std::abs(rate_rad_s));
+    EXPECT_NEAR(rate_rad_s, 2.0 * rim_speed_m_s / robot_spec(Role::forward).axle_length_m,
+                0.03 * std::abs(rate_rad_s));
     EXPECT_NEAR(world.robot_pose(0).x_m, 1.0, 1e-3);
     EXPECT_NEAR(world.robot_pose(0).y_m, 0.5, 1e-3);
   }
 }
 
 TEST(Driving, WallsStopARobot) {
-  World world({.robots = {Role::forward}, .walls = true, .step_s = 0.010});
+  World world({.robots = {robot_spec(Role::forward)}, .walls = true, .step_s = 0.010});
   for (const double heading_rad : {0.5 * std::numbers::pi, -0.5 * std::numbers::pi}) {
     world.place_robot(0, {.x_m = 1.0, .y_m = 0.0, .heading_rad = heading_rad});
     drive_straight(world, 2.55);
@@ -100,7 +101,8 @@ TEST(Driving, WallsStopARobot) {
 }
 
 TEST(Driving, RobotsStopEachOther) {
-  World world({.robots = {Role::forward, Role::forward}, .walls = false, .step_s = 0.010});
+  World world(
+      {.robots = {robot_spec(Role::forward), robot_spec(Role::forward)}, .walls = false, .step_s = 0.010});
   world.place_robot(0, {.x_m = -0.5, .y_m = 0.0, .heading_rad = 0.0});
   world.place_robot(1, {.x_m = 0.5, .y_m = 0.0, .heading_rad = std::numbers::pi});
   world.place_ball({.position_m = {0.0, 3.0}, .velocity_m_s = {}});
@@ -124,7 +126,7 @@ TEST(Driving, APlacedRobotStandsStill) {
 TEST(Driving, RolesDifferInSpeed) {
   for (const Role role : {Role::goalkeeper, Role::defender, Role::forward}) {
     const RobotSpec spec = robot_spec(role);
-    World world({.robots = {role}, .walls = false, .step_s = 0.010});
+    World world({.robots = {spec}, .walls = false, .step_s = 0.010});
     drive(world, 0, spec.max_rim_speed_m_s, spec.max_rim_speed_m_s, spec.max_wheel_torque_Nm);
     run(world, 0.5);
     EXPECT_NEAR(world.robot_velocity_m_s(0).x, spec.max_rim_speed_m_s, 0.03);

@@ -20,11 +20,11 @@ TEST(PhysicsConstants, OneDampingInThreeForms) {
 
 // What planar_robot.hpp says of a forward.
 TEST(PhysicsConstants, ThePlanarRobotIsAForward) {
-  EXPECT_EQ(planar_mass_kg, 1.8);
-  EXPECT_EQ(planar_wheel_inertia_kgm2, 2.0 * 0.15 * 0.07 * 0.07);
-  EXPECT_EQ(planar_own_inertia_kgm2, 1.5 * (0.15 * 0.15 + 0.15 * 0.15) / 12.0 +
-                                         2.0 * 0.1 * (3.0 * 0.04 * 0.04 + 0.004 * 0.004) / 12.0);
-  EXPECT_EQ(planar_grip_N, 3.0 * 9.81 * 1.7 / 2.0);
+  EXPECT_EQ(planar_forward.mass_kg, 1.8);
+  EXPECT_EQ(planar_forward.wheel_inertia_kgm2, 2.0 * 0.15 * 0.07 * 0.07);
+  EXPECT_EQ(planar_forward.own_inertia_kgm2, 1.5 * (0.15 * 0.15 + 0.15 * 0.15) / 12.0 +
+                                                 2.0 * 0.1 * (3.0 * 0.04 * 0.04 + 0.004 * 0.004) / 12.0);
+  EXPECT_EQ(planar_forward.grip_N, 3.0 * 9.81 * 1.7 / 2.0);
 }
 
 }  // namespace

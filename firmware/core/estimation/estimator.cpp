@@ -14,6 +14,10 @@ constexpr std::int32_t picture_period_ms = decision_period_ms;
 // Both halves of a picture leave the camera together.
 constexpr std::uint32_t greatest_apart_ticks = 25;
 
+constexpr std::uint32_t camera_latency_of(const RobotProfile& robot) {
+  return static_cast<std::uint32_t>(robot.camera_latency_ticks);
+}
+
 constexpr std::uint32_t distance(std::uint32_t one_tick, std::uint32_t other_tick) {
   return std::min(one_tick - other_tick, other_tick - one_tick);
 }
@@ -35,13 +39,13 @@ void Estimator::take(const BallSighting& ball, std::uint32_t tick) {
   ball_waits_ = 1;
 }
 
-PictureResult Estimator::end_tick(const RobotProfile& robot, std::uint32_t tick, Odometry& odometry) {
+PictureResult Estimator::end_tick(const RobotProfile& robot, Odometry& odometry) {
   if (!pair_is_complete()) {
     return PictureResult::none;
   }
   const PictureResult result = take_picture(robot, odometry);
   if (result == PictureResult::taken || result == PictureResult::mismatched) {
-    odometry.restart(tick - last_tick_);
+    odometry.restart(taken_tick_);
   }
   return result;
 }
@@ -62,7 +66,7 @@ PictureResult Estimator::take_picture(const RobotProfile& robot, const Odometry&
   const std::uint32_t elapsed_ticks = received_tick - last_tick_;
   if (has_picture_ == 0 || elapsed_ticks > vision_timeout_ticks) {
     has_velocity_ = 0;
-    adopt(received_tick);
+    adopt(robot, received_tick);
     return PictureResult::taken;
   }
   const std::int32_t pictures = (incoming_.number - last_.number) & (picture_numbers - 1);
@@ -72,23 +76,25 @@ PictureResult Estimator::take_picture(const RobotProfile& robot, const Odometry&
   if (!number_fits(pictures, elapsed_ticks) || !is_possible(robot, last_, incoming_, pictures)) {
     return PictureResult::implausible;
   }
-  const bool agrees = wheels_agree(robot, last_, incoming_, odometry);
+  const bool agrees =
+      wheels_agree(robot, last_, incoming_, odometry.until(received_tick - camera_latency_of(robot)));
   const std::int32_t elapsed_ms = pictures * picture_period_ms;
   ball_velocity_mm_s_ = {(incoming_.ball_um.x - last_.ball_um.x) / elapsed_ms,
                          (incoming_.ball_um.y - last_.ball_um.y) / elapsed_ms};
   has_velocity_ = 1;
-  adopt(received_tick);
+  adopt(robot, received_tick);
   return agrees ? PictureResult::taken : PictureResult::mismatched;
 }
 
-void Estimator::adopt(std::uint32_t received_tick) {
+void Estimator::adopt(const RobotProfile& robot, std::uint32_t received_tick) {
   last_ = incoming_;
   last_tick_ = received_tick;
+  taken_tick_ = received_tick - camera_latency_of(robot);
   has_picture_ = 1;
 }
 
 Estimate Estimator::at(std::uint32_t tick, const Odometry& odometry) const {
-  const auto led_ticks = static_cast<std::int32_t>(std::min(tick - last_tick_, greatest_led_ticks));
+  const auto led_ticks = static_cast<std::int32_t>(std::min(tick - taken_tick_, greatest_led_ticks));
   const BinaryAngle heading = wrap_angle(last_.heading);
   const Vector travelled = rotate({odometry.travelled_um(), 0}, heading);
   return {{last_.robot_um.x + travelled.x, last_.robot_um.y + travelled.y},

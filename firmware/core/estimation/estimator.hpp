@@ -6,7 +6,8 @@
 // numbers. Between pictures the ball is led on along its velocity, and the robot along its heading by its
 // wheel speeds. Positions in um; a speed in mm/s times a tick of 1 ms is a distance in um.
 //
-// A picture counts from when it was received. One whose number does not fit the time since the last one, or that
+// A picture shows what was when it was taken: the profile's camera latency before it was received. It counts, for
+// being fresh, from when it was received. One whose number does not fit the time since the last one, or that
 // shows what cannot be (plausibility.hpp), is not taken: a camera whose numbers or positions have gone wrong
 // becomes stale. After `vision_timeout_ticks` without one, the next begins anew, without a velocity.
 //
@@ -48,7 +49,7 @@ class Estimator {
   void take(const BallSighting& ball, std::uint32_t tick);
 
   // Ends the taking of this tick's percepts. The odometry has come to this tick, and begins anew with a picture.
-  PictureResult end_tick(const RobotProfile& robot, std::uint32_t tick, Odometry& odometry);
+  PictureResult end_tick(const RobotProfile& robot, Odometry& odometry);
 
   // Two pictures near enough in time to draw a velocity from.
   [[nodiscard]] bool has_velocity() const { return has_velocity_ != 0; }
@@ -60,7 +61,7 @@ class Estimator {
  private:
   bool pair_is_complete();
   PictureResult take_picture(const RobotProfile& robot, const Odometry& odometry);
-  void adopt(std::uint32_t received_tick);
+  void adopt(const RobotProfile& robot, std::uint32_t received_tick);
 
   // Whole words, as the state is sealed.
   Picture incoming_;  // robot and ball arrive apart: complete when their numbers agree
@@ -71,7 +72,8 @@ class Estimator {
   std::int32_t ball_picture_ = 0;
 
   Picture last_;
-  std::uint32_t last_tick_ = 0;
+  std::uint32_t last_tick_ = 0;   // when it was received,
+  std::uint32_t taken_tick_ = 0;  // and when it was taken
   std::uint32_t has_picture_ = 0;
   std::uint32_t has_velocity_ = 0;
   Vector ball_velocity_mm_s_;

@@ -44,16 +44,15 @@ bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& 
 }
 
 // On an arc the way goes along the mean heading, and a curved one is shorter than what the wheels rolled.
-bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to,
-                  const Odometry& odometry) {
+bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to, const Way& rolled) {
   const BinaryAngle turned = wrap_angle(to.heading - from.heading);
-  const BinaryAngle rolled_turn = wrap_angle(odometry.turned_um() * robot.turn_q12 / 4096);
+  const BinaryAngle rolled_turn = wrap_angle(rolled.turned_um * robot.turn_q12 / 4096);
   if (magnitude(wrap_angle(turned - rolled_turn)) > slip_angle + magnitude(rolled_turn) / 4) {
     return false;
   }
-  const Vector rolled = rotate({odometry.travelled_um(), 0}, wrap_angle(from.heading + turned / 2));
+  const Vector expected = rotate({rolled.travelled_um, 0}, wrap_angle(from.heading + turned / 2));
   const Vector moved = {to.robot_um.x - from.robot_um.x, to.robot_um.y - from.robot_um.y};
-  return !beyond(moved, rolled, slip_um + magnitude(odometry.travelled_um()) / 4);
+  return !beyond(moved, expected, slip_um + magnitude(rolled.travelled_um) / 4);
 }
 
 bool WheelPlausibility::follows(const RobotProfile& robot, Wheel& wheel, std::int32_t measured_mm_s) {

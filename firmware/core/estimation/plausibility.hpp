@@ -26,9 +26,9 @@ inline constexpr std::int32_t greatest_jump_um = 50'000;  // beyond what the spe
 [[nodiscard]] bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& to,
                                std::int32_t pictures);
 
-// The robot moved and turned as its wheels did.
+// The robot moved and turned as its wheels did on this way.
 [[nodiscard]] bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to,
-                                const Odometry& odometry);
+                                const Way& rolled);
 
 // Each wheel against its own past and against its torque. Sealed: whole words.
 class WheelPlausibility {

@@ -67,12 +67,4 @@ void PlantFault::spin(const WheelOrders& orders, bool free) {
   }
 }
 
-void ScaledPlant::actuate(World& world, const WheelOrders& orders, bool cut) {
-  WheelOrders given = orders;
-  for (WheelOrder& order : given) {
-    order.torque_Nm *= torque_scale_;
-  }
-  plant_->actuate(world, given, cut);
-}
-
 }  // namespace striker::sil

@@ -33,21 +33,4 @@ class PlantFault final : public Plant {
   std::array<double, 2> slip_m_s_{};  // of the rim over the floor
 };
 
-// Torque drives that give more or less than they should, all the time: another robot's mass, in effect. A servo
-// follows its set-point all the same.
-class ScaledPlant final : public Plant {
- public:
-  ScaledPlant(Plant& plant, double torque_scale) : plant_(&plant), torque_scale_(torque_scale) {}
-
-  [[nodiscard]] std::uint32_t ticks_per_step() const override { return plant_->ticks_per_step(); }
-  void reset() override { plant_->reset(); }
-  void actuate(World& world, const WheelOrders& orders, bool cut) override;
-  void sense(const World& world) override { plant_->sense(world); }
-  [[nodiscard]] RimSpeeds measured() const override { return plant_->measured(); }
-
- private:
-  Plant* plant_;
-  double torque_scale_;
-};
-
 }  // namespace striker::sil

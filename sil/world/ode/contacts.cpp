@@ -16,13 +16,15 @@ Contacts::Contacts(dWorldID world, double step_s) : world_(world), joints_(dJoin
   }
 }
 
-std::span<const dContactGeom> Contacts::collide(dGeomID a, dGeomID b, Pair pair, Vec2 friction_axis) {
+std::span<const dContactGeom> Contacts::collide(dGeomID a, dGeomID b, Pair pair, Vec2 friction_axis,
+                                                std::optional<double> friction) {
   const int found = dCollide(a, b, max_contacts, found_.data(), sizeof(dContactGeom));
   if (found == 0) {
     return {};
   }
   dContact contact{};
   contact.surface = surfaces_[static_cast<std::size_t>(pair)];
+  contact.surface.mu = friction.value_or(contact.surface.mu);
   const double soft_cfm = contact.surface.soft_cfm;
   const double length = std::hypot(friction_axis.x, friction_axis.y);
   if (length > shortest_axis) {

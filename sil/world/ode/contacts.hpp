@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "sil/world/ode/handles.hpp"
@@ -17,8 +18,10 @@ class Contacts {
 
   // Tests one pair of shapes and joins them where they meet. Normals point from b to a. `friction_axis` is a
   // horizontal direction along one side of the friction pyramid, of any length; {0, 0} leaves it to ODE,
-  // which takes the world's axes on the floor. The result holds until the next call.
-  std::span<const dContactGeom> collide(dGeomID a, dGeomID b, Pair pair, Vec2 friction_axis = {});
+  // which takes the world's axes on the floor. `friction` is Coulomb's coefficient where it is not the pair's. The
+  // result holds until the next call.
+  std::span<const dContactGeom> collide(dGeomID a, dGeomID b, Pair pair, Vec2 friction_axis = {},
+                                        std::optional<double> friction = {});
 
   // After each step.
   void clear();

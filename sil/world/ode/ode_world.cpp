@@ -20,8 +20,8 @@ void init_ode() {
 
 }  // namespace
 
-double kept_in_step(double step_s) {
-  return std::pow(kept_after_1_s, step_s);
+double kept_in_step(double step_s, double kept_a_second) {
+  return std::pow(kept_a_second, step_s);
 }
 
 OdeWorld::OdeWorld(double step_s) {
@@ -40,12 +40,14 @@ OdeWorld::OdeWorld(double step_s) {
   dWorldSetAngularDampingThreshold(world, 0.0);
 }
 
-Ball make_ball(dWorldID world) {
+Ball make_ball(dWorldID world, double kept_a_second, double step_s) {
   Ball ball{.body = dBodyCreate(world), .geom = GeomHandle(dCreateSphere(nullptr, ball_radius_m))};
   dMass mass;
   dMassSetSphereTotal(&mass, ball_mass_kg, ball_radius_m);
   dBodySetMass(ball.body, &mass);
   dGeomSetBody(ball.geom.get(), ball.body);
+  dBodySetLinearDamping(ball.body, 1.0 - kept_in_step(step_s, kept_a_second));
+  dBodySetAngularDamping(ball.body, 1.0 - kept_in_step(step_s, kept_a_second));
   return ball;
 }
 

@@ -3,13 +3,14 @@
 #pragma once
 
 #include "sil/world/ode/handles.hpp"
+#include "sil/world/physics_constants.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {
 
 // Damping: the share of its linear and angular velocity that a body keeps in a step. ODE damps last: a body
 // moves with the solved velocity, then loses the rest of it.
-[[nodiscard]] double kept_in_step(double step_s);
+[[nodiscard]] double kept_in_step(double step_s, double kept_a_second = kept_after_1_s);
 
 // Worlds that one process steps in several threads at once need a job queue each: the one that ODE gives them
 // all is not made for that (it aborts on "m_dependencies_count != 0").
@@ -29,7 +30,7 @@ struct Ball {
   GeomHandle geom;
 };
 
-[[nodiscard]] Ball make_ball(dWorldID world);
+[[nodiscard]] Ball make_ball(dWorldID world, double kept_a_second, double step_s);
 
 // On the floor, rolling without slip.
 void place(const Ball& ball, const BallState& state);

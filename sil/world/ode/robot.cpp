@@ -16,14 +16,15 @@ constexpr std::size_t index(Wheel wheel) {
   return static_cast<std::size_t>(wheel);
 }
 // Wheels along the body's y axis, skids along its x axis.
-constexpr std::array<double, 2> wheel_sides = {0.5 * axle_length_m, -0.5 * axle_length_m};
+std::array<double, 2> wheel_sides(const RobotSpec& spec) {
+  return {0.5 * spec.axle_length_m, -0.5 * spec.axle_length_m};
+}
 constexpr std::array<double, 2> skid_places = {skid_offset_m, -skid_offset_m};
 
 // Standing, the robot sinks in by its weight over the springs of its contacts, two a wheel and one a skid.
 // Placed there, it neither falls nor rises.
-double rest_depth_m(Role role) {
+double rest_depth_m(const RobotSpec& spec) {
   constexpr double contacts = 6.0;
-  const RobotSpec spec = robot_spec(role);
   const double weight_N = gravity_m_s2 * (spec.body_mass_kg + 2.0 * spec.wheel_mass_kg);
   return weight_N / (contacts * spring_N_m(world_softness));
 }
@@ -33,7 +34,7 @@ void add_body(Robot& robot, dWorldID world) {
   robot.body = dBodyCreate(world);
   // A box's inertia: AI Soccer names the mass and its centre only.
   dMass mass;
-  dMassSetBoxTotal(&mass, robot_spec(robot.role).body_mass_kg, robot_side_m, robot_side_m, height_m);
+  dMassSetBoxTotal(&mass, robot.spec.body_mass_kg, robot_side_m, robot_side_m, height_m);
   dBodySetMass(robot.body, &mass);
   dBodySetPosition(robot.body, 0.0, 0.0, centre_of_mass_height_m);
 
@@ -51,14 +52,15 @@ void add_body(Robot& robot, dWorldID world) {
 
 void add_wheel(Robot& robot, dWorldID world, std::size_t i) {
   constexpr int along_y = 2;
+  const std::array<double, 2> sides = wheel_sides(robot.spec);
   dBodyID wheel = dBodyCreate(world);
   dMass mass;
-  dMassSetCylinderTotal(&mass, robot_spec(robot.role).wheel_mass_kg, along_y, wheel_radius_m,
+  dMassSetCylinderTotal(&mass, robot.spec.wheel_mass_kg, along_y, robot.spec.wheel_radius_m,
                         wheel_thickness_m);
   dBodySetMass(wheel, &mass);
-  dBodySetPosition(wheel, 0.0, wheel_sides[i], wheel_radius_m);
+  dBodySetPosition(wheel, 0.0, sides[i], robot.spec.wheel_radius_m);
 
-  robot.tyres[i].reset(dCreateCylinder(nullptr, wheel_radius_m, wheel_thickness_m));
+  robot.tyres[i].reset(dCreateCylinder(nullptr, robot.spec.wheel_radius_m, wheel_thickness_m));
   dGeomSetBody(robot.tyres[i].get(), wheel);
   dMatrix3 on_edge;
   dRFromAxisAndAngle(on_edge, 1.0, 0.0, 0.0, 0.5 * M_PI);
@@ -66,7 +68,7 @@ void add_wheel(Robot& robot, dWorldID world, std::size_t i) {
 
   dJointID hinge = dJointCreateHinge(world, nullptr);
   dJointAttach(hinge, wheel, robot.body);
-  dJointSetHingeAnchor(hinge, 0.0, wheel_sides[i], wheel_radius_m);
+  dJointSetHingeAnchor(hinge, 0.0, sides[i], robot.spec.wheel_radius_m);
   dJointSetHingeAxis(hinge, 0.0, 1.0, 0.0);
   robot.wheels[i] = wheel;
   robot.hinges[i] = hinge;
@@ -84,9 +86,9 @@ void place_body(dBodyID body, const Pose& pose, double height_m) {
 
 }  // namespace
 
-Robot make_robot(dWorldID world, Role role) {
+Robot make_robot(dWorldID world, const RobotSpec& spec) {
   Robot robot;
-  robot.role = role;
+  robot.spec = spec;
   add_body(robot, world);
   for (std::size_t i = 0; i < robot.wheels.size(); ++i) {
     add_wheel(robot, world, i);
@@ -95,13 +97,14 @@ Robot make_robot(dWorldID world, Role role) {
 }
 
 void place(Robot& robot, const Pose& pose) {
-  const double sink_m = rest_depth_m(robot.role);
+  const std::array<double, 2> sides = wheel_sides(robot.spec);
+  const double sink_m = rest_depth_m(robot.spec);
   place_body(robot.body, pose, centre_of_mass_height_m - sink_m);
   for (std::size_t i = 0; i < robot.wheels.size(); ++i) {
     Pose wheel = pose;
-    wheel.x_m -= std::sin(pose.heading_rad) * wheel_sides[i];
-    wheel.y_m += std::cos(pose.heading_rad) * wheel_sides[i];
-    place_body(robot.wheels[i], wheel, wheel_radius_m - sink_m);
+    wheel.x_m -= std::sin(pose.heading_rad) * sides[i];
+    wheel.y_m += std::cos(pose.heading_rad) * sides[i];
+    place_body(robot.wheels[i], wheel, robot.spec.wheel_radius_m - sink_m);
   }
   set_torque(robot, Wheel::left, 0.0);
   set_torque(robot, Wheel::right, 0.0);
@@ -110,7 +113,7 @@ void place(Robot& robot, const Pose& pose) {
 
 void set_servo(Robot& robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm) {
   dJointID hinge = robot.hinges[index(wheel)];
-  dJointSetHingeParam(hinge, dParamVel, rim_speed_m_s / wheel_radius_m);
+  dJointSetHingeParam(hinge, dParamVel, rim_speed_m_s / robot.spec.wheel_radius_m);
   dJointSetHingeParam(hinge, dParamFMax, torque_ceiling_Nm * (wheel == Wheel::left ? 1.0 : 1.0 - tie_break));
   robot.torques_Nm[index(wheel)] = 0.0;
 }
@@ -134,7 +137,7 @@ Vec2 tyre_friction_axis(const Robot& robot) {
 }
 
 double rim_speed_m_s(const Robot& robot, Wheel wheel) {
-  return wheel_radius_m * dJointGetHingeAngleRate(robot.hinges[index(wheel)]);
+  return robot.spec.wheel_radius_m * dJointGetHingeAngleRate(robot.hinges[index(wheel)]);
 }
 
 double heading_rad(const Robot& robot) {

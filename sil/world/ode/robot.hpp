@@ -11,7 +11,7 @@
 namespace striker::sil {
 
 struct Robot {
-  Role role = Role::forward;
+  RobotSpec spec = robot_spec(Role::forward);
   dBodyID body = nullptr;
   std::array<dBodyID, 2> wheels{};  // in the order of Wheel
   std::array<dJointID, 2> hinges{};
@@ -25,7 +25,7 @@ struct Robot {
 // Reaches every point of the robot from its centre of mass, seen from above, however it lies.
 inline constexpr double robot_reach_m = 0.15;
 
-[[nodiscard]] Robot make_robot(dWorldID world, Role role);
+[[nodiscard]] Robot make_robot(dWorldID world, const RobotSpec& spec);
 
 void place(Robot& robot, const Pose& pose);
 

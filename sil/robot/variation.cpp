@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/robot/variation.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string_view>
+
+#include "sil/robot/plant_variation.hpp"
+#include "sil/world/random.hpp"
+#include "sil/world/random_streams.hpp"
+
+namespace striker::sil {
+
+namespace {
+
+struct Share {
+  std::string_view name;
+  double Variation::*member;
+  double least;
+  double greatest;
+};
+constexpr std::array shares = {Share{"mass", &Variation::mass, 0.2, 5.0},
+                               Share{"torque", &Variation::torque, 0.2, 5.0},
+                               Share{"friction", &Variation::friction, 0.05, 5.0},
+                               Share{"ball_damping", &Variation::ball_damping, 0.0, 10.0},
+                               Share{"vision_noise_mm", &Variation::vision_noise_mm, 0.0, 50.0}};
+
+struct Time {
+  std::string_view name;
+  void (*set)(Variation&, std::uint32_t);
+};
+// A picture later than this would be one of the episode before.
+constexpr double greatest_time_ms = 50.0;
+constexpr std::array times = {
+    Time{"vision_latency_ms",
+         [](Variation& variation, std::uint32_t ms) { variation.vision_latency_ms = ms; }},
+    Time{"command_delay_ms",
+         [](Variation& variation, std::uint32_t ms) { variation.command_delay_ms = ms; }}};
+
+double number_of(std::string_view name, std::string_view text, double least, double greatest) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= least && value <= greatest)) {
+    throw std::runtime_error(
+        fmt::format("--vary {}={}: give a number from {} to {}", name, text, least, greatest));
+  }
+  return value;
+}
+
+void set(Variation& variation, std::string_view name, std::string_view value) {
+  for (const Share& share : shares) {
+    if (share.name == name) {
+      variation.*share.member = number_of(name, value, share.least, share.greatest);
+      return;
+    }
+  }
+  for (const Time& time : times) {
+    if (time.name == name) {
+      const double milliseconds = number_of(name, value, 0.0, greatest_time_ms);
+      if (milliseconds != std::floor(milliseconds)) {
+        throw std::runtime_error(fmt::format("--vary {}={}: give whole milliseconds", name, value));
+      }
+      time.set(variation, static_cast<std::uint32_t>(milliseconds));
+      return;
+    }
+  }
+  throw std::runtime_error(
+      fmt::format("--vary {}: there is mass, torque, friction, ball_damping (shares: 0.9 is 10 % less), "
+                  "vision_noise_mm, vision_latency_ms and command_delay_ms",
+                  name));
+}
+
+// Gaussian noise on each coordinate, by Box and Muller.
+class NoisyCamera final : public Camera {
+ public:
+  NoisyCamera(double noise_m, std::uint64_t seed)
+      : exact_(0), noise_m_(noise_m), random_(seed, 0, random_stream::vision_noise) {}
+
+  [[nodiscard]] Picture look(const World& world) override {
+    Picture picture = exact_.look(world);
+    picture.robot.x_m += draw();
+    picture.robot.y_m += draw();
+    picture.ball_m.x += draw();
+    picture.ball_m.y += draw();
+    return picture;
+  }
+
+ private:
+  double draw() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - random_.uniform()));
+    return noise_m_ * radius * std::cos(2.0 * std::numbers::pi * random_.uniform());
+  }
+
+  ExactCamera exact_;
+  double noise_m_;
+  Random random_;
+};
+
+}  // namespace
+
+Variation variation_of(const std::string& text) {
+  Variation variation;
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::string_view part = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+    const std::size_t equals = part.find('=');
+    if (equals == std::string_view::npos) {
+      throw std::runtime_error(fmt::format("--vary {}: give NAME=VALUE, as mass=0.9", part));
+    }
+    set(variation, part.substr(0, equals), part.substr(equals + 1));
+  }
+  return variation;
+}
+
+KickPlace varied(const KickPlace& described, const Variation& variation) {
+  KickPlace place = described;
+  place.robot.body_mass_kg *= variation.mass;
+  place.robot.wheel_mass_kg *= variation.mass;
+  place.robot.tyre_friction *= variation.friction;
+  place.robot.max_wheel_torque_Nm *= variation.torque;
+  place.ball_kept_after_1_s = std::pow(described.ball_kept_after_1_s, variation.ball_damping);
+  return place;
+}
+
+std::vector<std::unique_ptr<Plant>> make_plants(PlantKind kind, const RobotSpec& described,
+                                                const Variation& variation) {
+  RobotSpec spec = described;
+  spec.max_wheel_torque_Nm *= variation.torque;
+  std::vector<std::unique_ptr<Plant>> plants;
+  plants.push_back(make_plant(kind, 0, spec));
+  if (variation.torque != 1.0) {
+    plants.push_back(std::make_unique<ScaledPlant>(*plants.back(), variation.torque));
+  }
+  if (variation.command_delay_ms != 0) {
+    plants.push_back(std::make_unique<LatePlant>(*plants.back(), variation.command_delay_ms));
+  }
+  return plants;
+}
+
+std::unique_ptr<Camera> make_camera(const Variation& variation, std::uint64_t seed) {
+  if (variation.vision_noise_mm == 0.0) {
+    return std::make_unique<ExactCamera>(0);
+  }
+  return std::make_unique<NoisyCamera>(variation.vision_noise_mm * 1e-3, seed);
+}
+
+}  // namespace striker::sil

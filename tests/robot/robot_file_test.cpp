@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/robot/robot_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace striker::sil {
+namespace {
+
+void expect_same(const core::RobotDescription& read, const core::RobotDescription& built_in) {
+  EXPECT_EQ(core::profile_of(read), core::profile_of(built_in));
+  EXPECT_EQ(read.body_mass_g, built_in.body_mass_g);
+  EXPECT_EQ(read.wheel_mass_g, built_in.wheel_mass_g);
+  EXPECT_EQ(read.wheel_radius_um, built_in.wheel_radius_um);
+  EXPECT_EQ(read.axle_length_um, built_in.axle_length_um);
+  EXPECT_EQ(read.camera_latency_ms, built_in.camera_latency_ms);
+  EXPECT_EQ(read.tyre_friction_percent, built_in.tyre_friction_percent);
+}
+
+TEST(RobotFile, TheThreeRolesAreThoseOfTheFirmware) {
+  const std::filesystem::path folder = STRIKER_ROBOTS;
+  expect_same(read_robot(folder / "forward.toml"), core::forward);
+  expect_same(read_robot(folder / "defender.toml"), core::defender);
+  expect_same(read_robot(folder / "goalkeeper.toml"), core::goalkeeper);
+}
+
+const std::string sound =
+    "body_mass_g = 2_200\nwheel_mass_g = 120\nwheel_radius_um = 50_000\naxle_length_um = 200_000\n"
+    "torque_limit_mNm = 600\ntop_rim_speed_mm_s = 1_500\ncamera_latency_ms = 35\n";
+
+std::string problem_of(const std::string& text) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "striker_robot.toml";
+  std::ofstream(file) << text;
+  try {
+    (void)read_robot(file);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RobotFile, ARobotOfOnesOwnIsRead) {
+  EXPECT_EQ(problem_of(sound), "");
+}
+
+TEST(RobotFile, WhatIsWrongIsNamedWithItsPlace) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"", "body_mass_g is missing: give a whole number from 200 to 100000"},
+      {sound + "colour = 3\n", "line 8: 'colour' is no key of a robot; there are body_mass_g, "},
+      {"body_mass_g = 5\n" + sound.substr(sound.find('\n') + 1),
+       "line 1: body_mass_g = 5 must be a whole number from 200 to 100000"},
+      {"body_mass_g = 2.2\n" + sound.substr(sound.find('\n') + 1),
+       "line 1: body_mass_g must be a whole number"},
+      {sound + "camera_latency_ms = 1\n", "line 8: "},
+      {"= 3", "line 1: "}};
+  for (const auto& [text, expected] : cases) {
+    const std::string problem = problem_of(text);
+    EXPECT_NE(problem.find("striker_robot.toml: " + expected), std::string::npos) << problem;
+  }
+}
+
+}  // namespace
+}  // namespace striker::sil

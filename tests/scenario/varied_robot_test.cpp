@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// A real robot is never the described one. What the controller makes of others, in the full world over its bus.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "sil/bus/in_process_link.hpp"
+#include "tests/scenario/kick_rig.hpp"
+
+namespace striker::sil {
+namespace {
+
+struct Play {
+  double mean_reward = 0.0;
+  std::size_t undriven = 0;
+};
+
+Play play(const std::string& variation) {
+  constexpr std::uint64_t episodes = 60;
+  InProcessLink link;
+  KickRig rig(link, PlantKind::drive, variation_of(variation));
+  Play result;
+  for (const KickOutcome& outcome : rig.play({.seed = 9, .episodes = episodes})) {
+    result.mean_reward += outcome.reward / episodes;
+  }
+  result.undriven = rig.undriven.size();
+  return result;
+}
+
+TEST(VariedRobot, OneThatIsLighterOrStrongerKicksAsWell) {
+  const double described = play("").mean_reward;
+  for (const std::string variation : {"mass=0.9", "mass=0.7", "torque=1.1", "torque=1.3"}) {
+    const Play seen = play(variation);
+    EXPECT_GT(seen.mean_reward, described - 0.5) << variation;
+    EXPECT_EQ(seen.undriven, 0U) << variation << ": a fault where nothing is wrong";
+  }
+}
+
+// How well they kick is the policy's affair.
+TEST(VariedRobot, NoHonestOneIsAFault) {
+  for (const std::string variation : {"mass=1.3", "torque=0.7", "friction=0.6", "ball_damping=0.5",
+                                      "ball_damping=1.5", "vision_noise_mm=2"}) {
+    EXPECT_EQ(play(variation).undriven, 0U) << variation;
+  }
+}
+
+TEST(VariedRobot, AsDescribedIsTheOfficialRobotToTheByte) {
+  const auto bus_of = [](const std::string& variation) {
+    InProcessLink link;
+    BusRecord bus;
+    KickRig(link, PlantKind::drive, variation_of(variation)).play({.seed = 9, .episodes = 2}, {&bus});
+    return bus.frames;
+  };
+  ASSERT_NO_FATAL_FAILURE(expect_same(bus_of(""), bus_of("mass=1.0,vision_latency_ms=0,friction=1")));
+}
+
+// The same robot with a late camera: the controller that was told leads its pictures on, one that was not kicks worse
+// but takes nothing for a fault.
+TEST(VariedRobot, ALateCameraCostsLittleWhereItIsDescribed) {
+  const double described = play("").mean_reward;
+  core::RobotDescription late = core::forward;
+  late.camera_latency_ms = 50;
+  InProcessLink link(core::profile_of(late));
+  KickRig rig(link, PlantKind::drive, variation_of("vision_latency_ms=50"));
+  double told = 0.0;
+  for (const KickOutcome& outcome : rig.play({.seed = 9, .episodes = 60})) {
+    told += outcome.reward / 60;
+  }
+  EXPECT_GT(told, described - 0.5);
+  EXPECT_TRUE(rig.undriven.empty());
+  const Play untold = play("vision_latency_ms=50");
+  EXPECT_LT(untold.mean_reward, told);
+  EXPECT_EQ(untold.undriven, 0U);
+}
+
+TEST(Variation, IsReadOrRefusedByName) {
+  const Variation read = variation_of("mass=0.9,vision_latency_ms=35,vision_noise_mm=2.5");
+  EXPECT_EQ(read, (Variation{.mass = 0.9, .vision_noise_mm = 2.5, .vision_latency_ms = 35}));
+  EXPECT_EQ(variation_of(""), Variation{});
+  for (const std::string wrong : {"mass", "mass=", "mass=nan", "mass=0", "mas=1", "vision_latency_ms=1.5",
+                                  "vision_latency_ms=51", "=1"}) {
+    EXPECT_THROW((void)variation_of(wrong), std::runtime_error) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace striker::sil
