@@ -45,7 +45,17 @@ struct Bus {
 };
 
 core::RobotDescription robot_of(const KickOptions& options) {
-  return options.robot.empty() ? core::forward : read_robot(options.robot);
+  if (options.robot.empty()) {
+    return core::forward;
+  }
+  const core::RobotDescription robot = read_robot(options.robot);
+  if (!loop::BuiltInPilot::suits(core::profile_of(robot))) {
+    throw std::runtime_error(fmt::format(
+        "{}: the policy's actions go beyond top_rim_speed_mm_s = {}: train one for this robot, and build with "
+        "-DSTRIKER_POLICY=HEADER",
+        options.robot, robot.top_rim_speed_mm_s));
+  }
+  return robot;
 }
 
 Bus open_bus(const KickOptions& options) {
