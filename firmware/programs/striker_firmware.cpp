@@ -20,6 +20,7 @@
 #include "firmware/policy/built_in.hpp"
 #include "firmware/ports/linux/bench_peer.hpp"
 #include "firmware/ports/linux/fault_announcer.hpp"
+#include "firmware/ports/linux/interface_watch.hpp"
 #include "firmware/ports/linux/real_time.hpp"
 #include "firmware/ports/linux/real_time_socket.hpp"
 #include "firmware/ports/linux/run_lockstep.hpp"
@@ -204,9 +205,16 @@ void run_on_own_clock(Options options) {
   }
   std::atomic<core::Fault> fault = core::Fault::none;
   FaultAnnouncer announcer;
+  std::optional<InterfaceWatch<RealTimeSocket>> interface;
+  if (socket) {
+    interface.emplace(*socket, options.can);
+  }
   std::optional<Helper> announcing;
   announcing.emplace([&] {
     announcer.announce(fault.load(std::memory_order_relaxed));
+    if (interface) {
+      interface->look(std::chrono::steady_clock::now());
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   });
 

@@ -36,11 +36,23 @@ constexpr auto simulator_receives = [] {
 BusEnd::BusEnd(const std::string& interface)
     : interface_(interface), socket_(interface, simulator_receives) {}
 
-// A full queue in lockstep means a peer that does not read: the frame is lost as on a real bus.
 void BusEnd::send(std::span<const can::Frame> frames) {
   for (const can::Frame& frame : frames) {
     socket_.send(frame);
   }
+}
+
+void BusEnd::send_all(std::span<const can::Frame> frames, milliseconds patience) {
+  for (const can::Frame& frame : frames) {
+    if (!socket_.send(frame, patience) && !host::stop_requested()) {
+      throw std::runtime_error(socket_.full_queue(patience));
+    }
+  }
+}
+
+void BusEnd::reopen() {
+  const host::CanSocket anew(interface_, simulator_receives);
+  socket_.adopt(anew);
 }
 
 std::optional<can::Frame> BusEnd::receive() {
@@ -61,7 +73,7 @@ void LockstepLink::send(std::uint32_t tick, std::span<const can::Frame> frames) 
   if (tick == 0) {
     first_.assign(frames.begin(), frames.end());
   }
-  bus_.send(frames);
+  bus_.send_all(frames, options_.answer_timeout);
 }
 
 void LockstepLink::collect(std::uint32_t tick, std::vector<can::Frame>& answer) {
@@ -112,7 +124,7 @@ void LockstepLink::await_start(std::vector<can::Frame>& answer) {
                       "--clock sync' on the same interface, or use --bus inproc",
                       duration_cast<std::chrono::seconds>(options_.start_timeout).count()));
     }
-    bus_.send(first_);
+    bus_.send_all(first_, options_.answer_timeout);
   }
 }
 
@@ -128,10 +140,44 @@ void LockstepLink::listen_for_return(std::uint32_t tick) {
   fmt::print(stderr, "striker-sil: the controller answers again, from tick {}\n", tick + 1);
 }
 
-FreeRunningLink::FreeRunningLink(const std::string& interface) : bus_(interface) {}
+FreeRunningLink::FreeRunningLink(const std::string& interface, milliseconds away_limit)
+    : bus_(interface), interface_(interface), away_limit_(away_limit) {}
 
 void FreeRunningLink::send(std::uint32_t, std::span<const can::Frame> frames) {
-  bus_.send(frames);
+  if (gone_ && !is_there()) {
+    return;
+  }
+  try {
+    bus_.send(frames);
+  } catch (const host::InterfaceGone& why) {
+    lose(why);
+  }
+}
+
+void FreeRunningLink::lose(const host::InterfaceGone& why) {
+  fmt::print(stderr, "striker-sil: {}: looked for, for {} s\n", why.what(),
+             duration_cast<std::chrono::seconds>(away_limit_).count());
+  gone_ = why;
+  gone_since_ = Clock::now();
+  back_off_.reset();
+}
+
+bool FreeRunningLink::is_there() {
+  const auto now = Clock::now();
+  if (now - gone_since_ > away_limit_) {
+    throw host::InterfaceGone(*gone_);
+  }
+  if (!back_off_.due(now)) {
+    return false;
+  }
+  try {
+    bus_.reopen();
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  gone_.reset();
+  fmt::print(stderr, "striker-sil: CAN interface '{}' is back\n", interface_);
+  return true;
 }
 
 void FreeRunningLink::collect(std::uint32_t, std::vector<can::Frame>& answer) {

@@ -48,7 +48,8 @@ Bus open_bus(const KickOptions& options) {
   if (options.in_process()) {
     bus.in_process = std::make_unique<InProcessLink>();
   } else if (options.real_time) {
-    bus.socket = std::make_unique<FreeRunningLink>(interface);
+    bus.socket = std::make_unique<FreeRunningLink>(
+        interface, std::chrono::milliseconds(options.start_timeout_ms));
   } else {
     bus.socket = std::make_unique<LockstepLink>(
         interface, SocketCanOptions{std::chrono::milliseconds(options.answer_timeout_ms),
