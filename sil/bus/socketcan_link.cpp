@@ -23,6 +23,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds start_retry{200};
 constexpr milliseconds unanswered_tick{1};
 constexpr milliseconds silence{20};
+constexpr std::chrono::seconds away_limit{10};
 
 constexpr auto simulator_receives = [] {
   std::array<std::uint16_t, controller_identifiers.size() + 1> identifiers{};
@@ -140,8 +141,7 @@ void LockstepLink::listen_for_return(std::uint32_t tick) {
   fmt::print(stderr, "striker-sil: the controller answers again, from tick {}\n", tick + 1);
 }
 
-FreeRunningLink::FreeRunningLink(const std::string& interface, milliseconds away_limit)
-    : bus_(interface), interface_(interface), away_limit_(away_limit) {}
+FreeRunningLink::FreeRunningLink(const std::string& interface) : bus_(interface), interface_(interface) {}
 
 void FreeRunningLink::send(std::uint32_t, std::span<const can::Frame> frames) {
   if (gone_ && !is_there()) {
@@ -155,8 +155,7 @@ void FreeRunningLink::send(std::uint32_t, std::span<const can::Frame> frames) {
 }
 
 void FreeRunningLink::lose(const host::InterfaceGone& why) {
-  fmt::print(stderr, "striker-sil: {}: looked for, for {} s\n", why.what(),
-             duration_cast<std::chrono::seconds>(away_limit_).count());
+  fmt::print(stderr, "striker-sil: {}: looked for, for {} s\n", why.what(), away_limit.count());
   gone_ = why;
   gone_since_ = Clock::now();
   back_off_.reset();
@@ -164,7 +163,7 @@ void FreeRunningLink::lose(const host::InterfaceGone& why) {
 
 bool FreeRunningLink::is_there() {
   const auto now = Clock::now();
-  if (now - gone_since_ > away_limit_) {
+  if (now - gone_since_ > away_limit) {
     throw host::InterfaceGone(*gone_);
   }
   if (!back_off_.due(now)) {

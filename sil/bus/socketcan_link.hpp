@@ -8,14 +8,14 @@
 // could not be repeated.
 //
 // On its own clock nothing waits: a frame that the queue does not take is lost, as on any bus. An interface that goes is
-// looked for, for the start timeout, and the world goes on meanwhile.
+// looked for, for 10 s, and the world goes on meanwhile.
 #pragma once
 
 #include <chrono>
 #include <optional>
 #include <string>
 
-#include "firmware/host/back_off.hpp"
+#include "firmware/host/can/back_off.hpp"
 #include "firmware/host/can/can_socket.hpp"
 #include "sil/bus/controller_link.hpp"
 #include "sil/bus/peer_watch.hpp"
@@ -68,8 +68,8 @@ class LockstepLink final : public ControllerLink {
 
 class FreeRunningLink final : public ControllerLink {
  public:
-  FreeRunningLink(const std::string& interface, std::chrono::milliseconds away_limit);
-  // Throws host::InterfaceGone when the interface was away for the limit.
+  explicit FreeRunningLink(const std::string& interface);
+  // Throws host::InterfaceGone when the interface was away for 10 s.
   void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
   void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
 
@@ -82,7 +82,6 @@ class FreeRunningLink final : public ControllerLink {
 
   BusEnd bus_;
   std::string interface_;
-  std::chrono::milliseconds away_limit_;
   std::optional<host::InterfaceGone> gone_;
   Clock::time_point gone_since_;
   host::BackOff back_off_;

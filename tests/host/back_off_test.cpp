@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/host/back_off.hpp"
+#include "firmware/host/can/back_off.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "firmware/host/back_off.hpp"
+#include "firmware/host/can/back_off.hpp"
 
 namespace striker::linux_port {
 

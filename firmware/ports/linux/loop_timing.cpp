@@ -9,6 +9,7 @@
 
 #include "firmware/host/files.hpp"
 #include "firmware/host/version.hpp"
+#include "firmware/policy/built_in.hpp"
 
 namespace striker::linux_port {
 
@@ -67,6 +68,8 @@ std::string summary(const LoopTiming& timing) {
 void write_json(const LoopTiming& timing, const std::vector<std::string>& settings,
                 const std::filesystem::path& file) {
   nlohmann::ordered_json json = {{"program", "striker-firmware"},
+                                 {"policy_name", policy::built_in_name},
+                                 {"policy", fmt::format("{:08x}", policy::built_in.identity)},
                                  {"kernel", kernel()},
                                  {"settings", settings},
                                  {"ticks", timing.ticks},
