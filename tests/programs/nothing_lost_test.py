@@ -254,7 +254,7 @@ class CommandLine(unittest.TestCase):
                                  ("striker-sil", "kick", "--bus", "can:vcan0", "--decisions", "/tmp/x.csv"),
                                  ("striker-sil", "replay", "/dev/null", "--start-timeout", "9"),
                                  ("striker-sil", "faults", "--bus", "can:vcan0", "--jobs", "2")):
-            self.refuse(arguments[-2], "means nothing but with --", "leave it out", command=(name, *arguments))
+            self.refuse(arguments[-2], "means nothing but with ", "leave it out", command=(name, *arguments))
 
     def test_the_firmware_takes_one_bus(self):
         for buses in ((), ("--can", "vcan0", "--in-process"), ("--replay", "/dev/null", "--can", "vcan0")):
