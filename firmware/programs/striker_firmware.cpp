@@ -15,12 +15,12 @@
 
 #include "firmware/can/controller_receives.hpp"
 #include "firmware/can/drives/striker_drives.hpp"
+#include "firmware/host/can/interface_watch.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
 #include "firmware/policy/built_in.hpp"
 #include "firmware/ports/linux/bench_peer.hpp"
 #include "firmware/ports/linux/fault_announcer.hpp"
-#include "firmware/ports/linux/interface_watch.hpp"
 #include "firmware/ports/linux/real_time.hpp"
 #include "firmware/ports/linux/real_time_socket.hpp"
 #include "firmware/ports/linux/run_lockstep.hpp"
@@ -225,7 +225,7 @@ void run_on_own_clock(Options options) {
   }
   std::atomic<core::Fault> fault = core::Fault::none;
   FaultAnnouncer announcer;
-  std::optional<InterfaceWatch<RealTimeSocket>> interface;
+  std::optional<host::InterfaceWatch<RealTimeSocket>> interface;
   if (socket) {
     interface.emplace(*socket, options.can);
   }
@@ -255,7 +255,7 @@ void run_on_own_clock(Options options) {
   announcer.announce(fault);
   fmt::print("striker-firmware: {}\n", summary(timing));
   if (!options.json.empty()) {
-    write_json(timing, granted.lines, options.json);
+    write_json(timing, {policy::built_in_name, policy::built_in.identity}, granted.lines, options.json);
   }
 }
 

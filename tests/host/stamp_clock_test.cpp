@@ -72,7 +72,8 @@ TEST(StampClock, AStepOfASecondMovesNoStampWhetherItWasTakenBeforeOrAfter) {
       const std::int64_t stamp = machine.stamp();
       machine.ahead_ns += is_before ? step : 0;
       clock.take(machine.read());
-      EXPECT_NEAR(static_cast<double>(clock.monotonic_ns(stamp)), static_cast<double>(came_ns), 100.0) << step;
+      EXPECT_NEAR(static_cast<double>(clock.monotonic_ns(stamp)), static_cast<double>(came_ns), 100.0)
+          << step;
     }
   }
 }

@@ -112,7 +112,7 @@ class Interface(files_case.FilesCase):
         self.firmware("realtime", *EASY)
         simulator = program("striker-sil", "kick", "--bus", "can:vcan0", "--realtime", "--episodes", "900000", "--json",
                             self.file("a.json"))
-        time.sleep(5.0)
+        self.await_episodes(1, simulator)
         link("set", "down", "vcan0")
         _, told = simulator.communicate(timeout=100)
         self.assertEqual(simulator.returncode, BUS_FAILED, told)

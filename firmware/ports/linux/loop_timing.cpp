@@ -9,7 +9,6 @@
 
 #include "firmware/host/files.hpp"
 #include "firmware/host/version.hpp"
-#include "firmware/policy/built_in.hpp"
 
 namespace striker::linux_port {
 
@@ -65,11 +64,11 @@ std::string summary(const LoopTiming& timing) {
       timing.resources.minor_faults, timing.resources.major_faults, timing.dropped_frames);
 }
 
-void write_json(const LoopTiming& timing, const std::vector<std::string>& settings,
+void write_json(const LoopTiming& timing, const PolicyLabel& policy, const std::vector<std::string>& settings,
                 const std::filesystem::path& file) {
   nlohmann::ordered_json json = {{"program", "striker-firmware"},
-                                 {"policy_name", policy::built_in_name},
-                                 {"policy", fmt::format("{:08x}", policy::built_in.identity)},
+                                 {"policy_name", policy.name},
+                                 {"policy", fmt::format("{:08x}", policy.identity)},
                                  {"kernel", kernel()},
                                  {"settings", settings},
                                  {"ticks", timing.ticks},

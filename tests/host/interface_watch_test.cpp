@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/ports/linux/interface_watch.hpp"
+#include "firmware/host/can/interface_watch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace striker::linux_port {
+namespace striker::host {
 namespace {
 
 using std::chrono::milliseconds;
@@ -26,7 +26,7 @@ struct Socket {
 std::string told_in(InterfaceWatch<Socket>& watch, int from_ms, int until_ms) {
   testing::internal::CaptureStderr();
   for (int at_ms = from_ms; at_ms < until_ms; at_ms += 20) {
-    watch.look(host::BackOff::Time(std::chrono::hours(1) + milliseconds(at_ms)));
+    watch.look(BackOff::Time(std::chrono::hours(1) + milliseconds(at_ms)));
   }
   return testing::internal::GetCapturedStderr();
 }
@@ -44,7 +44,8 @@ TEST(InterfaceWatch, TriesEverMoreSeldomUntilItIsBackAndTellsBothOnce) {
   const std::string told = told_in(watch, 0, 1'400);
   EXPECT_EQ(socket.tries, 4);
   EXPECT_EQ(told.find("CAN interface 'can7' went away"), told.rfind("CAN interface"));
-  EXPECT_NE(told_in(watch, 1'400, 3'000).find("'can7' is back: clear the fault, then arm"), std::string::npos);
+  EXPECT_NE(told_in(watch, 1'400, 3'000).find("'can7' is back: clear the fault, then arm"),
+            std::string::npos);
   EXPECT_EQ(socket.tries, 5);
 }
 
@@ -57,4 +58,4 @@ TEST(InterfaceWatch, TheNextTimeIsTriedAtOnceAgain) {
 }
 
 }  // namespace
-}  // namespace striker::linux_port
+}  // namespace striker::host

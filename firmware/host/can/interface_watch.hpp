@@ -9,9 +9,9 @@
 
 #include "firmware/host/can/back_off.hpp"
 
-namespace striker::linux_port {
+namespace striker::host {
 
-// A socket with is_gone() and reopen(), as RealTimeSocket.
+// A socket with is_gone() and reopen(), as linux_port::RealTimeSocket.
 template <class Socket>
 class InterfaceWatch {
  public:
@@ -20,7 +20,7 @@ class InterfaceWatch {
 
   // To be called again and again. Even one that is up again by itself takes new sockets: whether it is the same
   // interface is nothing that its name tells.
-  void look(host::BackOff::Time now) {
+  void look(BackOff::Time now) {
     if (!socket_->is_gone()) {
       if (std::exchange(told_, false)) {
         fmt::print(stderr, "striker-firmware: CAN interface '{}' is back: clear the fault, then arm\n",
@@ -43,8 +43,8 @@ class InterfaceWatch {
  private:
   Socket* socket_;
   std::string interface_;
-  host::BackOff back_off_;
+  BackOff back_off_;
   bool told_ = false;
 };
 
-}  // namespace striker::linux_port
+}  // namespace striker::host
