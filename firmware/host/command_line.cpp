@@ -8,9 +8,11 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <vector>
 
-#include "firmware/host/option_checks.hpp"
+#include "firmware/host/options/help_text.hpp"
+#include "firmware/host/options/option_checks.hpp"
 #include "firmware/host/version.hpp"
 
 namespace striker::host {
@@ -46,6 +48,7 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<in
                                                 build_type(), built_in.empty() ? "" : ", ", built_in));
   for (CLI::App* const one : with_subcommands(app)) {
     one->fallthrough();
+    one->formatter(std::make_shared<HelpText>());
   }
   check_numbers(app);
   try {
@@ -62,6 +65,15 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<in
     std::fflush(stdout);
     fmt::print(stderr, "{}: {}\n", app.get_name(), error.what());
     return exit_bad_input;
+  }
+}
+
+void require_meaning(CLI::App& app, bool has_meaning, std::initializer_list<const char*> options,
+                     const std::string& what) {
+  for (const char* const option : options) {
+    if (!has_meaning && app.count(option) != 0) {
+      throw CLI::ValidationError(option, fmt::format("means nothing but with {}: leave it out", what));
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <initializer_list>
 #include <string>
 
 namespace striker::host {
@@ -20,6 +21,11 @@ inline constexpr int exit_interrupted = 130;
 // and no other than was written; a name that is not known is answered with the nearest one that is.
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& body,
         const std::string& built_in = "");
+
+// For a final callback: refuses those of the options that were given, unless they mean something with the others.
+// `what` says with which: "--clock realtime".
+void require_meaning(CLI::App& app, bool has_meaning, std::initializer_list<const char*> options,
+                     const std::string& what);
 
 // Of an option that names a file which the program writes, or reads. Before the body runs, an empty name, a folder
 // and a place that cannot be written are refused, and so is a file that would be both, or written twice.

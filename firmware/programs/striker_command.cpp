@@ -12,6 +12,7 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/message_receiver.hpp"
+#include "firmware/core/supervision/vigilance.hpp"
 #include "firmware/host/can/can_socket.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
@@ -22,14 +23,16 @@ using namespace striker;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr std::array<std::uint16_t, 3> tool_receives = {
-    can::layout<can::Status>.info.id, can::layout<can::Safety>.info.id, can::layout<can::Challenge>.info.id};
+constexpr std::array<std::uint16_t, 4> tool_receives = {
+    can::layout<can::Status>.info.id, can::layout<can::Safety>.info.id, can::layout<can::Challenge>.info.id,
+    can::layout<can::EmergencyStop>.info.id};
 
 // Longer than the window in which a controller's statuses are believed: what repeats old ones never gets there.
 constexpr int statuses_to_believe = 16;
 
 constexpr milliseconds ask_again{300};
 constexpr milliseconds renew_every{1000};
+constexpr milliseconds stop_hold{core::stop_hold_ticks};
 
 // What the controller says of itself. `status` is there once statuses have come in sequence for long enough.
 class Controller {
@@ -49,12 +52,18 @@ class Controller {
   [[nodiscard]] bool is_stopped() const {
     return (static_cast<core::Faults>(safety_.faults) & core::set_of(core::Fault::emergency_stop)) != 0;
   }
+  // How long the stop still holds at most: what pressed it before this tool listened is not known.
+  [[nodiscard]] milliseconds stop_holds_for() const {
+    const auto passed = std::chrono::duration_cast<milliseconds>(Clock::now() - last_stop_);
+    return is_stopped() ? std::max(stop_hold - passed, milliseconds(0)) : milliseconds(0);
+  }
   // What it asked back, once.
   std::optional<can::Challenge> take_challenge() { return std::exchange(challenge_, std::nullopt); }
 
  private:
   void hear(const can::Frame& frame) {
     can::Challenge challenge;
+    can::EmergencyStop stop;
     const auto now = std::chrono::duration_cast<milliseconds>(Clock::now().time_since_epoch()).count();
     const auto tick = static_cast<std::uint32_t>(now);
     if (can::is<can::Status>(frame)) {
@@ -65,6 +74,8 @@ class Controller {
       safety_ = can::receive(frame, safety) == can::Verdict::accepted ? safety : safety_;
     } else if (can::is<can::Challenge>(frame) && can::receive(frame, challenge) == can::Verdict::accepted) {
       challenge_ = challenge;
+    } else if (can::is<can::EmergencyStop>(frame) && can::receive(frame, stop) == can::Verdict::accepted) {
+      last_stop_ = Clock::now();
     }
   }
 
@@ -73,7 +84,8 @@ class Controller {
   can::Status status_;
   can::Safety safety_;
   std::optional<can::Challenge> challenge_;
-  int believed_ = 0;  // statuses in a row
+  Clock::time_point last_stop_ = Clock::now();  // that was heard, or when this tool began to listen
+  int believed_ = 0;                            // statuses in a row
 };
 
 std::string describe(const Controller& controller) {
@@ -85,6 +97,17 @@ std::string describe(const Controller& controller) {
       controller.is_stopped() ? ", stopped" : "", status.vision_ready != 0 ? "ready" : "not ready",
       status.wheels_ready != 0 ? "ready" : "not ready", status.wrong_length, status.wrong_crc,
       status.wrong_counter, status.out_of_range);
+}
+
+// Why a clear is refused that nothing but time helps.
+std::string hold_text(const std::string& command, const Controller& controller) {
+  const milliseconds rest = controller.stop_holds_for();
+  if (command != "clear" || rest == milliseconds(0)) {
+    return {};
+  }
+  return fmt::format(
+      "; the stop holds for {} ms after its last frame, another {} ms at most: clear again then",
+      stop_hold.count(), rest.count());
 }
 
 bool has_effect(const std::string& command, const Controller& controller) {
@@ -182,8 +205,9 @@ int run(const std::string& interface, const std::string& command, milliseconds t
                interface, timeout.count(), command == "status" ? "" : " (the command was sent)");
     return 2;
   }
-  fmt::print(done ? stdout : stderr, "{}{}\n",
-             done ? "" : "striker-command: " + command + " had no effect: ", describe(tool.controller()));
+  fmt::print(done ? stdout : stderr, "{}{}{}\n",
+             done ? "" : "striker-command: " + command + " had no effect: ", describe(tool.controller()),
+             done ? "" : hold_text(command, tool.controller()));
   if (done && hold) {
     fmt::print("renewed every second; Ctrl-C disarms\n");
     std::fflush(stdout);
@@ -196,7 +220,8 @@ int run(const std::string& interface, const std::string& command, milliseconds t
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Sends a command to the controller and waits for its effect. Exit status: 0 done, 1 no effect, 2 no answer or no bus.",
+      "Sends a command to the controller and waits for its effect. Exit status: 0 done, 1 no effect, 2 no answer or "
+      "no bus.",
       "striker-command");
   std::string interface;
   unsigned timeout_ms = 1000;
@@ -211,7 +236,7 @@ int main(int argc, char** argv) {
   arm->add_flag("--hold", hold, "renew it until Ctrl-C, then disarm");
   app.add_subcommand("disarm", "torque 0, back to standby");
   app.add_subcommand("estop", "emergency stop: latches a fault, torque 0");
-  app.add_subcommand("clear", "clear the latched faults, if their causes are gone");
+  app.add_subcommand("clear", "clear the latched faults, if their causes are gone; a stop holds for 200 ms");
   app.add_subcommand("status", "print the controller's state");
   return host::run(app, argc, argv, [&] {
     host::catch_stop_signals();

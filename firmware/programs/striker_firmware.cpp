@@ -15,6 +15,7 @@
 
 #include "firmware/can/controller_receives.hpp"
 #include "firmware/can/drives/striker_drives.hpp"
+#include "firmware/host/can/interface_watch.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
 #include "firmware/policy/built_in.hpp"
@@ -52,14 +53,12 @@ struct Options {
 };
 
 void define_bus(CLI::App& app, Options& options) {
-  auto* bus = app.add_option_group("bus", "one of");
-  bus->add_option("--can", options.can, "CAN interface, for example vcan0");
-  bus->add_flag("--in-process", options.in_process,
-                "no CAN: a bench in this process plays drives, vision and operator; realtime only");
+  app.add_option("--can", options.can, "CAN interface, for example vcan0");
+  app.add_flag("--in-process", options.in_process,
+               "no CAN: a bench in this process plays drives, vision and operator; realtime only");
   host::reads_file(
-      bus->add_option("--replay", options.replay,
-                      "no CAN: a candump log of a run in lockstep; its answers are compared, bit by bit"));
-  bus->require_option(1);
+      app.add_option("--replay", options.replay,
+                     "no CAN: a candump log of a run in lockstep; its answers are compared, bit by bit"));
   app.add_option("--interface", options.interface, "replay: of the log, where it has more than one");
   app.add_option("--clock", options.clock, "what ticks the controller")
       ->check(CLI::IsMember({"sync", "realtime"}))
@@ -113,6 +112,30 @@ void define_real_time(CLI::App& app, Options& options) {
   host::writes_file(app.add_option("--json", options.json, "realtime: write the timing report at the end"));
 }
 
+// What is left out has its default; what is given and would be ignored is refused.
+void require_sound(CLI::App& app, const Options& options) {
+  const std::size_t buses = app.count("--can") + app.count("--in-process") + app.count("--replay");
+  if (buses != 1) {
+    throw CLI::ValidationError("--can, --in-process, --replay", "exactly one of them is to be given");
+  }
+  const bool is_replay = !options.replay.empty();
+  const bool is_real_time = options.clock == "realtime";
+  if (options.in_process && !is_real_time) {
+    throw CLI::ValidationError("--in-process", "has no SYNC: use it with --clock realtime");
+  }
+  host::require_meaning(app, is_replay, {"--interface"}, "--replay");
+  host::require_meaning(app, !is_replay,
+                        {"--clock", "--scheduler", "--cpu", "--sync-timeout", "--ticks", "--json",
+                         "--period-us", "--frames-per-tick", "--overrun-limit", "--priority", "--runtime-us"},
+                        "--can or --in-process");
+  host::require_meaning(app, !is_real_time, {"--sync-timeout"}, "--clock sync");
+  host::require_meaning(app, is_real_time,
+                        {"--ticks", "--json", "--period-us", "--frames-per-tick", "--overrun-limit"},
+                        "--clock realtime");
+  host::require_meaning(app, options.scheduler == "fifo", {"--priority"}, "--scheduler fifo");
+  host::require_meaning(app, options.scheduler == "deadline", {"--runtime-us"}, "--scheduler deadline");
+}
+
 RealTimeSettings settings_of(const Options& options) {
   return {.scheduler = options.scheduler == "fifo"       ? Scheduler::fifo
                        : options.scheduler == "deadline" ? Scheduler::deadline
@@ -162,8 +185,9 @@ class Bench {
 };
 
 void print_granted(const Options& options, const Granted& granted) {
-  fmt::print("striker-firmware: on {}, clock {}\n", options.in_process ? "a bench in process" : options.can,
-             options.clock);
+  fmt::print("striker-firmware: on {}, clock {}, policy {} {:08x}\n",
+             options.in_process ? "a bench in process" : options.can, options.clock, policy::built_in_name,
+             policy::built_in.identity);
   for (const std::string& line : granted.lines) {
     fmt::print("  {}\n", line);
   }
@@ -176,9 +200,6 @@ void print_granted(const Options& options, const Granted& granted) {
 }
 
 void run_on_sync(const Options& options) {
-  if (options.in_process) {
-    throw std::runtime_error("--in-process has no SYNC: use it with --clock realtime");
-  }
   const std::vector<std::uint16_t> others = all_but_stops(can::controller_receives<can::StrikerDrives>);
   host::CanSocket socket(options.can, others);
   host::CanSocket stops(options.can, stop_identifiers);
@@ -204,9 +225,16 @@ void run_on_own_clock(Options options) {
   }
   std::atomic<core::Fault> fault = core::Fault::none;
   FaultAnnouncer announcer;
+  std::optional<host::InterfaceWatch<RealTimeSocket>> interface;
+  if (socket) {
+    interface.emplace(*socket, options.can);
+  }
   std::optional<Helper> announcing;
   announcing.emplace([&] {
     announcer.announce(fault.load(std::memory_order_relaxed));
+    if (interface) {
+      interface->look(std::chrono::steady_clock::now());
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   });
 
@@ -227,7 +255,7 @@ void run_on_own_clock(Options options) {
   announcer.announce(fault);
   fmt::print("striker-firmware: {}\n", summary(timing));
   if (!options.json.empty()) {
-    write_json(timing, granted.lines, options.json);
+    write_json(timing, {policy::built_in_name, policy::built_in.identity}, granted.lines, options.json);
   }
 }
 
@@ -246,11 +274,14 @@ int run_replay(const Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "The kick controller. Stops cleanly on SIGINT or SIGTERM, with torque 0 sent. Exit status: 0 stopped, or a replay with the recorded answers; 1 a replay with others; 2 wrong use, or a bus that fails; 130 a replay that was interrupted.",
+      "The kick controller. Stops cleanly on SIGINT or SIGTERM, with torque 0 sent. Exit status: 0 stopped, or a "
+      "replay with the recorded answers; 1 a replay with others; 2 wrong use, or a bus that fails; 130 a replay that "
+      "was interrupted.",
       "striker-firmware");
   Options options;
   define_bus(app, options);
   define_real_time(app, options);
+  app.final_callback([&] { require_sound(app, options); });
   return host::run(
       app, argc, argv,
       [&] {
@@ -265,5 +296,5 @@ int main(int argc, char** argv) {
         }
         return 0;
       },
-      fmt::format("policy {:08x}", policy::built_in.identity));
+      fmt::format("policy {} {:08x}", policy::built_in_name, policy::built_in.identity));
 }

@@ -23,6 +23,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds start_retry{200};
 constexpr milliseconds unanswered_tick{1};
 constexpr milliseconds silence{20};
+constexpr std::chrono::seconds away_limit{10};
 
 constexpr auto simulator_receives = [] {
   std::array<std::uint16_t, controller_identifiers.size() + 1> identifiers{};
@@ -36,11 +37,23 @@ constexpr auto simulator_receives = [] {
 BusEnd::BusEnd(const std::string& interface)
     : interface_(interface), socket_(interface, simulator_receives) {}
 
-// A full queue in lockstep means a peer that does not read: the frame is lost as on a real bus.
 void BusEnd::send(std::span<const can::Frame> frames) {
   for (const can::Frame& frame : frames) {
     socket_.send(frame);
   }
+}
+
+void BusEnd::send_all(std::span<const can::Frame> frames, milliseconds patience) {
+  for (const can::Frame& frame : frames) {
+    if (!socket_.send(frame, patience) && !host::stop_requested()) {
+      throw std::runtime_error(socket_.full_queue(patience));
+    }
+  }
+}
+
+void BusEnd::reopen() {
+  const host::CanSocket anew(interface_, simulator_receives);
+  socket_.adopt(anew);
 }
 
 std::optional<can::Frame> BusEnd::receive() {
@@ -61,7 +74,7 @@ void LockstepLink::send(std::uint32_t tick, std::span<const can::Frame> frames) 
   if (tick == 0) {
     first_.assign(frames.begin(), frames.end());
   }
-  bus_.send(frames);
+  bus_.send_all(frames, options_.answer_timeout);
 }
 
 void LockstepLink::collect(std::uint32_t tick, std::vector<can::Frame>& answer) {
@@ -112,7 +125,7 @@ void LockstepLink::await_start(std::vector<can::Frame>& answer) {
                       "--clock sync' on the same interface, or use --bus inproc",
                       duration_cast<std::chrono::seconds>(options_.start_timeout).count()));
     }
-    bus_.send(first_);
+    bus_.send_all(first_, options_.answer_timeout);
   }
 }
 
@@ -128,10 +141,42 @@ void LockstepLink::listen_for_return(std::uint32_t tick) {
   fmt::print(stderr, "striker-sil: the controller answers again, from tick {}\n", tick + 1);
 }
 
-FreeRunningLink::FreeRunningLink(const std::string& interface) : bus_(interface) {}
+FreeRunningLink::FreeRunningLink(const std::string& interface) : bus_(interface), interface_(interface) {}
 
 void FreeRunningLink::send(std::uint32_t, std::span<const can::Frame> frames) {
-  bus_.send(frames);
+  if (gone_ && !is_there()) {
+    return;
+  }
+  try {
+    bus_.send(frames);
+  } catch (const host::InterfaceGone& why) {
+    lose(why);
+  }
+}
+
+void FreeRunningLink::lose(const host::InterfaceGone& why) {
+  fmt::print(stderr, "striker-sil: {}: looked for, for {} s\n", why.what(), away_limit.count());
+  gone_ = why;
+  gone_since_ = Clock::now();
+  back_off_.reset();
+}
+
+bool FreeRunningLink::is_there() {
+  const auto now = Clock::now();
+  if (now - gone_since_ > away_limit) {
+    throw host::InterfaceGone(*gone_);
+  }
+  if (!back_off_.due(now)) {
+    return false;
+  }
+  try {
+    bus_.reopen();
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  gone_.reset();
+  fmt::print(stderr, "striker-sil: CAN interface '{}' is back\n", interface_);
+  return true;
 }
 
 void FreeRunningLink::collect(std::uint32_t, std::vector<can::Frame>& answer) {

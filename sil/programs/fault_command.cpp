@@ -133,6 +133,10 @@ void define(CLI::App& faults, FaultOptions& options) {
       ->capture_default_str();
   host::writes_file(
       faults.add_option("--json", options.json, "write the table, with every episode and violation"));
+  faults.final_callback([&faults, &options] {
+    host::require_meaning(faults, options.bus == "inproc", {"--jobs"},
+                          "--bus inproc: a bus serves one run at a time");
+  });
 }
 
 int play_faults(const FaultOptions& options) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/programs/kick_options.hpp"
 
-#include <stdexcept>
 #include <vector>
 
 #include "firmware/host/command_line.hpp"
@@ -97,19 +96,18 @@ void define(CLI::App& kick, KickOptions& options) {
   define_bus_time(kick, options);
   define_clock(kick, options);
   define_files(kick, options);
-}
-
-void require_sound(const KickOptions& options) {
-  if (options.real_time && !options.in_process() && options.bitrate != 0) {
-    throw std::runtime_error("--bitrate is for lockstep: leave out --realtime, or use --bus inproc");
-  }
-  if (!options.robot.empty() && !options.in_process()) {
-    throw std::runtime_error(
-        "--robot is for --bus inproc: a controller on a bus is told of its robot when it is built");
-  }
-  if (!options.decisions.empty() && !options.in_process()) {
-    throw std::runtime_error("--decisions reads the controller's own state: use it with --bus inproc");
-  }
+  kick.final_callback([&kick, &options] {
+    const bool is_on_own_clock = options.real_time && !options.in_process();
+    host::require_meaning(kick, !is_on_own_clock, {"--bitrate"},
+                          "lockstep (without --realtime) or --bus inproc");
+    host::require_meaning(kick, !options.real_time && !options.in_process(),
+                          {"--answer-timeout", "--start-timeout"},
+                          "--bus can:IFACE in lockstep (without --realtime)");
+    host::require_meaning(kick, options.in_process(), {"--robot"},
+                          "--bus inproc: a controller on a bus is told of its robot when it is built");
+    host::require_meaning(kick, options.in_process(), {"--decisions"},
+                          "--bus inproc: it reads the controller's own state");
+  });
 }
 
 }  // namespace striker::sil

@@ -36,9 +36,7 @@ struct KickOptions {
   [[nodiscard]] bool in_process() const { return bus == "inproc"; }
 };
 
+// Options that mean nothing with the others are refused. `options` outlives the parsing.
 void define(CLI::App& kick, KickOptions& options);
-
-// Throws std::runtime_error with one line that names what does not go together, and the way out.
-void require_sound(const KickOptions& options);
 
 }  // namespace striker::sil

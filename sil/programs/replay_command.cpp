@@ -47,6 +47,10 @@ void define(CLI::App& replay, ReplayOptions& options) {
   replay.add_option("--start-timeout", options.start_timeout_ms, "on a bus: for the first answer, in ms")
       ->check(CLI::Range(1U, 3'600'000U))
       ->capture_default_str();
+  replay.final_callback([&replay, &options] {
+    host::require_meaning(replay, options.bus != "inproc", {"--answer-timeout", "--start-timeout"},
+                          "--bus can:IFACE");
+  });
 }
 
 int play_replay(const ReplayOptions& options) {

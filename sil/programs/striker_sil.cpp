@@ -41,5 +41,5 @@ int main(int argc, char** argv) {
         }
         return faults->parsed() ? play_faults(fault_options) : play_kicks(kick_options);
       },
-      fmt::format("policy {:08x}", policy::built_in.identity));
+      fmt::format("policy {} {:08x}", policy::built_in_name, policy::built_in.identity));
 }

@@ -64,6 +64,7 @@ nlohmann::ordered_json run_json(const KickRun& run) {
                                    {"seed", run.seed},
                                    {"plant", run.plant},
                                    {"pose", run.pose},
+                                   {"policy_name", run.policy_name},
                                    {"policy", run.policy},
                                    {"undriven_episodes", run.undriven},
                                    {"simulated_s", run.simulated_s},
@@ -141,6 +142,9 @@ std::string format_table(const KickRun& run, bool rows) {
       "{} episodes: mean reward {:.3f} +- {:.3f}, contact rate {:.3f}, kick rate {:.3f}, {:.1f} x real time\n",
       run.episodes.size(), summary.mean_reward, summary.reward_ci95, summary.contact_rate, summary.kick_rate,
       realtime_factor(run));
+  if (!run.policy_name.empty()) {
+    text += fmt::format("policy {} {}\n", run.policy_name, run.policy);
+  }
   if (!run.undriven.empty()) {
     text += fmt::format("{} of them were not driven all along, and are no result of a policy: episodes {}\n",
                         run.undriven.size(), fmt::join(run.undriven, ", "));

@@ -18,6 +18,7 @@ struct KickRun {
   std::string pose;                 // "origin" or "anywhere"
   std::string robot = {};           // the file of its description; empty: the built-in one
   std::string variation = {};       // of the robot from its description, as on the command line; empty: none
+  std::string policy_name = {};     // where it is known what its header calls it
   std::string policy;               // the identity of the policy or model, 8 hexadecimal digits
   double simulated_s = 0.0;
   double wall_s = 0.0;
@@ -41,7 +42,8 @@ void write_json(const KickRun& run, const std::filesystem::path& file);
 // A row of it: a line of JSON, for a journal of a run that may end at any moment.
 [[nodiscard]] std::string row_line(std::uint64_t episode, const KickOutcome& outcome, bool driven);
 
-// The table for a terminal: a row an episode, then the means, and what is no result of the policy's.
+// The table for a terminal: a row an episode, then the means, the policy if it has a name, and
+// what is no result of it.
 [[nodiscard]] std::string format_table(const KickRun& run, bool rows);
 
 }  // namespace striker::sil

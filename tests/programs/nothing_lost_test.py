@@ -13,6 +13,7 @@ import signal
 import stat
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -235,6 +236,57 @@ class CommandLine(unittest.TestCase):
                               (("striker-firmware", "--can", "vcan0", "--schedular", "fifo"), "--scheduler"),
                               (("striker-command", "--can", "vcan0", "estopp"), "estop")):
             self.refuse(f"did you mean {name}?", command=command)
+
+    def test_an_option_that_would_be_ignored_is_refused(self):
+        realtime, sync = ("--clock", "realtime"), ("--clock", "sync")
+        for name, *arguments in (*(("striker-firmware", "--can", "vcan0", *sync, option, value) for option, value in
+                                   (("--ticks", "3"), ("--json", "/tmp/x.json"), ("--period-us", "900"),
+                                    ("--frames-per-tick", "3"), ("--overrun-limit", "3"))),
+                                 ("striker-firmware", "--can", "vcan0", *realtime, "--sync-timeout", "9"),
+                                 ("striker-firmware", "--in-process", *realtime, "--scheduler", "other", "--priority", "9"),
+                                 ("striker-firmware", "--in-process", *realtime, "--runtime-us", "90"),
+                                 ("striker-firmware", "--in-process", *realtime, "--interface", "vcan0"),
+                                 ("striker-firmware", "--replay", "/dev/null", "--ticks", "3"),
+                                 ("striker-sil", "kick", "--realtime", "--bus", "can:vcan0", "--answer-timeout", "9"),
+                                 ("striker-sil", "kick", "--realtime", "--bus", "can:vcan0", "--start-timeout", "9"),
+                                 ("striker-sil", "kick", "--realtime", "--bus", "can:vcan0", "--bitrate", "500000"),
+                                 ("striker-sil", "kick", "--answer-timeout", "9"),
+                                 ("striker-sil", "kick", "--bus", "can:vcan0", "--decisions", "/tmp/x.csv"),
+                                 ("striker-sil", "replay", "/dev/null", "--start-timeout", "9"),
+                                 ("striker-sil", "faults", "--bus", "can:vcan0", "--jobs", "2")):
+            self.refuse(arguments[-2], "means nothing but with ", "leave it out", command=(name, *arguments))
+
+    def test_the_firmware_takes_one_bus(self):
+        for buses in ((), ("--can", "vcan0", "--in-process"), ("--replay", "/dev/null", "--can", "vcan0")):
+            self.refuse("--can", "--in-process", "--replay", "exactly one", command=("striker-firmware", *buses))
+        self.refuse("--in-process", "--clock realtime", command=("striker-firmware", "--in-process"))
+
+    def test_help_fits_a_terminal_and_says_first_what_the_program_is_for(self):
+        for command in (("striker-sil",), ("striker-sil", "kick"), ("striker-sil", "faults"), ("striker-sil", "campaign"),
+                        ("striker-sil", "replay"), ("striker-firmware",), ("striker-command",), ("striker-command", "arm"),
+                        ("striker-bus-budget",), ("striker-dbc",), ("striker-train",), ("striker-evaluate",),
+                        ("striker-export",), ("striker-experiment",), ("striker-ceiling",)):
+            text = run(*command, "--help").stdout
+            lines = text.split("\n")
+            self.assertRegex(lines[0], r"^[A-Z]")
+            self.assertLessEqual(max(map(len, lines)), 100, text)
+            self.assertNotRegex(text, r"U?INT:|FLOAT:|TEXT:|Needs:|Excludes:|Option Group")
+            self.assertLess(text.index("Usage: "), text.index("Options:"))
+            if "Exit status" in text:
+                self.assertGreater(text.index("Exit status"), text.index("Options:"))
+
+    def test_reports_name_the_policy(self):
+        identity = re.search(r"policy kick ([0-9a-f]{8})$", run("striker-sil", "--version").stdout.strip())[1]
+        with tempfile.TemporaryDirectory() as directory:
+            for name, *arguments in (("striker-sil", "kick", "--episodes", "1"),
+                                     ("striker-firmware", "--in-process", "--clock", "realtime", "--ticks", "3")):
+                file = os.path.join(directory, "a.json")
+                result = run(name, *arguments, "--json", file)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(f"policy kick {identity}\n", result.stdout)
+                with open(file, encoding="utf-8") as stream:
+                    report = json.load(stream)
+                self.assertEqual((report["policy_name"], report["policy"]), ("kick", identity))
 
     def test_options_stand_before_or_behind_the_subcommand(self):
         for arguments in (("--can", "none9", "status"), ("status", "--can", "none9")):

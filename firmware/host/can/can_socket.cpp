@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/host/can/can_socket.hpp"
 
+#include <fcntl.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
@@ -14,7 +15,10 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 #include <vector>
+
+#include "firmware/host/stop_signal.hpp"
 
 namespace striker::host {
 
@@ -57,6 +61,8 @@ can::BusHealth health_after(const can_frame& error, can::BusHealth before) {
   return before;
 }
 
+constexpr std::chrono::microseconds queue_retry{200};
+
 std::int64_t to_ns(const timespec& time) {
   return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
 }
@@ -71,6 +77,10 @@ void ask_for_room(int socket) {
 }
 
 }  // namespace
+
+bool says_gone(int error) {
+  return error == ENODEV || error == ENXIO || error == ENETDOWN;
+}
 
 Reception reception_of(msghdr& message) {
   Reception reception;
@@ -99,7 +109,7 @@ void CanSocket::fail(const std::string& what) const {
 }
 
 CanSocket::CanSocket(const std::string& interface, std::span<const std::uint16_t> identifiers)
-    : interface_(interface) {
+    : interface_(interface), stamps_(read_clocks()) {
   socket_ = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (socket_ < 0) {
     fail("this kernel has no CAN (" + error_text() +
@@ -155,12 +165,42 @@ bool CanSocket::send(const can::Frame& frame) {
   if (write(socket_, &wire, sizeof wire) == static_cast<ssize_t>(sizeof wire)) {
     return true;
   }
-  if (errno == ENODEV || errno == ENXIO || errno == ENETDOWN) {
+  if (says_gone(errno)) {
     const std::string why = error_text();
-    throw std::runtime_error("CAN interface '" + interface_ + "': cannot send (" + why +
-                             "): the interface went away or down; bring it up and start again");
+    throw InterfaceGone("CAN interface '" + interface_ + "': cannot send (" + why +
+                        "): the interface went away or down; bring it up and start again");
   }
   return false;
+}
+
+// The kernel tells nobody when the queue has room again.
+bool CanSocket::send(const can::Frame& frame, std::chrono::microseconds patience) {
+  using Clock = std::chrono::steady_clock;
+  if (send(frame)) {
+    return true;
+  }
+  const auto deadline = Clock::now() + patience;
+  while (Clock::now() < deadline && !stop_requested()) {
+    std::this_thread::sleep_for(queue_retry);
+    if (send(frame)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string CanSocket::full_queue(std::chrono::microseconds patience) const {
+  return "CAN interface '" + interface_ + "': the queue to send stayed full for " +
+         std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(patience).count()) +
+         " ms (ENOBUFS): the bus is off, nobody acknowledges, or it is too slow; a longer queue ('ip link set " +
+         interface_ + " txqueuelen 1000') helps against bursts alone";
+}
+
+void CanSocket::adopt(const CanSocket& other) {
+  if (dup3(other.socket_, socket_, O_CLOEXEC) < 0) {
+    throw std::runtime_error("CAN interface '" + interface_ + "': cannot be opened anew (" + error_text() +
+                             "): start again");
+  }
 }
 
 std::optional<can::Frame> CanSocket::accept(const can_frame& wire) {
@@ -186,31 +226,32 @@ std::optional<can::Frame> CanSocket::receive() {
     message.msg_control = control.data();
     message.msg_controllen = control.size();
     if (recvmsg(socket_, &message, 0) != static_cast<ssize_t>(sizeof wire)) {
-      emptied_at_ns_ = 0;
+      stamps_.note_empty();
+      in_a_row_ = false;
       return std::nullopt;
     }
     const Reception reception = reception_of(message);
     note_dropped(reception.dropped);
     if (auto frame = accept(wire)) {
-      frame->age_ms = age_ms(reception.stamp_ns, time_of_emptying_ns());
+      frame->age_ms = age_ms(received_ns(reception.stamp_ns), stamps_.now_ns());
       return frame;
     }
   }
 }
 
-// All frames that are taken in a row are taken now: one call for each would cost as much as the frame.
-std::int64_t CanSocket::time_of_emptying_ns() {
-  if (emptied_at_ns_ == 0) {
-    timespec now{};
-    clock_gettime(CLOCK_REALTIME, &now);
-    emptied_at_ns_ = to_ns(now);
+// All frames that are taken in a row are taken now: to read the clocks for each would cost as much as the frame.
+std::int64_t CanSocket::received_ns(std::int64_t stamp_ns) {
+  if (!in_a_row_ || !stamps_.covers(stamp_ns)) {
+    stamps_.take(read_clocks());
+    in_a_row_ = true;
   }
-  return emptied_at_ns_;
+  return stamps_.monotonic_ns(stamp_ns);
 }
 
+// A socket that was made anew counts from 0.
 void CanSocket::note_dropped(std::uint32_t since_made) {
   if (since_made != 0) {
-    lost_ += since_made - dropped_;
+    lost_ += since_made - (since_made < dropped_ ? 0 : dropped_);
     dropped_ = since_made;
   }
 }

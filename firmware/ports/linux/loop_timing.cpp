@@ -64,9 +64,11 @@ std::string summary(const LoopTiming& timing) {
       timing.resources.minor_faults, timing.resources.major_faults, timing.dropped_frames);
 }
 
-void write_json(const LoopTiming& timing, const std::vector<std::string>& settings,
+void write_json(const LoopTiming& timing, const PolicyLabel& policy, const std::vector<std::string>& settings,
                 const std::filesystem::path& file) {
   nlohmann::ordered_json json = {{"program", "striker-firmware"},
+                                 {"policy_name", policy.name},
+                                 {"policy", fmt::format("{:08x}", policy.identity)},
                                  {"kernel", kernel()},
                                  {"settings", settings},
                                  {"ticks", timing.ticks},

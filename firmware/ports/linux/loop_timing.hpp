@@ -41,9 +41,14 @@ struct LoopTiming {
 // One line for a terminal.
 [[nodiscard]] std::string summary(const LoopTiming& timing);
 
+struct PolicyLabel {
+  std::string name;
+  std::uint32_t identity = 0;
+};
+
 // JSON, written to a temporary file and renamed. `settings` are the lines that were printed at start. Throws
 // std::runtime_error that names the file and the way out.
-void write_json(const LoopTiming& timing, const std::vector<std::string>& settings,
+void write_json(const LoopTiming& timing, const PolicyLabel& policy, const std::vector<std::string>& settings,
                 const std::filesystem::path& file);
 
 }  // namespace striker::linux_port

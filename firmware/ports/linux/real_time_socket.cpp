@@ -3,31 +3,20 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <ctime>
 #include <optional>
+#include <stdexcept>
 
+#include "firmware/host/periodic_clock.hpp"
 #include "firmware/ports/linux/stop_identifiers.hpp"
 
 namespace striker::linux_port {
 
-namespace {
-
-constexpr std::uint32_t calendar_ticks = 1000;
-
-std::int64_t to_ns(const timespec& time) {
-  return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
-}
-
-std::int64_t now_ns(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return to_ns(now);
-}
-
-}  // namespace
-
 RealTimeSocket::RealTimeSocket(const std::string& interface, std::span<const std::uint16_t> identifiers)
-    : socket_(interface, all_but_stops(identifiers)), stops_(interface, stop_identifiers) {
+    : interface_(interface),
+      others_(all_but_stops(identifiers)),
+      socket_(interface, others_),
+      stops_(interface, stop_identifiers),
+      stamps_(host::read_clocks()) {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     slots_[i].part = {&slots_[i].wire, sizeof slots_[i].wire};
     messages_[i].msg_hdr.msg_iov = &slots_[i].part;
@@ -48,23 +37,31 @@ std::size_t RealTimeSocket::try_send(std::span<const can::Frame> frames) {
     if (sent > 0) {
       taken += static_cast<std::size_t>(sent);
       begin += static_cast<std::size_t>(sent);
-      gone_ = false;
+      gone_.store(false, std::memory_order_relaxed);
       continue;
     }
-    gone_ = gone_ || errno == ENODEV || errno == ENXIO || errno == ENETDOWN;
+    if (host::says_gone(errno)) {
+      gone_.store(true, std::memory_order_relaxed);
+    }
     ++begin;
   }
   return taken;
 }
 
-void RealTimeSocket::read_calendar() {
-  if (receptions_++ % calendar_ticks == 0) {
-    calendar_ns_ = now_ns(CLOCK_REALTIME) - now_ns(CLOCK_MONOTONIC);
+// Stops first: what could be driven is heard no sooner than what stops it.
+bool RealTimeSocket::reopen() {
+  try {
+    const host::CanSocket stops(interface_, stop_identifiers);
+    const host::CanSocket others(interface_, others_);
+    stops_.adopt(stops);
+    socket_.adopt(others);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
   }
 }
 
 loop::Received<std::int64_t> RealTimeSocket::receive(std::size_t most) {
-  read_calendar();
   batch_.clear();
   // One stop is as good as many.
   std::optional<can::Frame> stop;
@@ -72,7 +69,7 @@ loop::Received<std::int64_t> RealTimeSocket::receive(std::size_t most) {
     stop = frame;
   }
   if (stop) {
-    batch_.add(*stop, now_ns(CLOCK_MONOTONIC));
+    batch_.add(*stop, host::MonotonicClock().now_ns());
   }
   const std::size_t wanted = std::min(most, slots_.size()) - (stop ? 1 : 0);
   for (std::size_t i = 0; i < wanted; ++i) {
@@ -81,15 +78,18 @@ loop::Received<std::int64_t> RealTimeSocket::receive(std::size_t most) {
   }
   const int received =
       recvmmsg(socket_.handle(), messages_.data(), static_cast<unsigned>(wanted), MSG_DONTWAIT, nullptr);
-  const std::int64_t now = now_ns(CLOCK_MONOTONIC);
+  stamps_.take(host::read_clocks());
   for (std::size_t i = 0; received > 0 && i < static_cast<std::size_t>(received); ++i) {
     const host::Reception reception = host::reception_of(messages_[i].msg_hdr);
     socket_.note_dropped(reception.dropped);
     if (auto frame = socket_.accept(slots_[i].wire)) {
-      const std::int64_t received_ns = reception.stamp_ns - calendar_ns_;
-      frame->age_ms = host::age_ms(received_ns, now);
+      const std::int64_t received_ns = stamps_.monotonic_ns(reception.stamp_ns);
+      frame->age_ms = host::age_ms(received_ns, stamps_.now_ns());
       batch_.add(*frame, received_ns);
     }
+  }
+  if (received < static_cast<int>(wanted)) {
+    stamps_.note_empty();
   }
   return batch_.received();
 }

@@ -2,13 +2,20 @@
 // SocketCAN for the real-time loop: one system call receives all the frames of a tick, with the kernel's time
 // stamps, and one sends them. Emergency stops have a socket of their own, which is read first: no other traffic
 // stands before them, and no full queue drops them.
+//
+// An interface that goes down or is deleted is a bus that is off. One that was made anew under the same name, as by a
+// USB adapter that was plugged in again, takes new sockets: another thread makes them (`reopen`), as that allocates.
 #pragma once
 
 #include <linux/can.h>
 #include <sys/socket.h>
 
 #include <array>
+#include <atomic>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "firmware/host/can/can_socket.hpp"
 #include "firmware/loop/bus.hpp"
@@ -27,12 +34,17 @@ class RealTimeSocket {
   // that has gone off, until a frame passes again.
   std::size_t try_send(std::span<const can::Frame> frames);
 
-  // The kernel stamps the frames. It does so with the calendar's clock: for about a second after that was
-  // set it may be off by as much.
+  // Times are the kernel's stamps. Where the calendar's clock was set meanwhile, they may be off by two ticks
+  // (host/can/stamp_clock.hpp).
   loop::Received<std::int64_t> receive(std::size_t most);
 
-  [[nodiscard]] can::BusHealth health() { return gone_ ? can::BusHealth::bus_off : socket_.health(); }
+  [[nodiscard]] can::BusHealth health() { return is_gone() ? can::BusHealth::bus_off : socket_.health(); }
   [[nodiscard]] std::uint32_t lost() { return socket_.lost(); }
+
+  // For another thread. `reopen` is false as long as there is no such interface, or it is down; else the loop's next
+  // calls go through new sockets.
+  [[nodiscard]] bool is_gone() const { return gone_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool reopen();
 
  private:
   struct Slot {
@@ -41,16 +53,15 @@ class RealTimeSocket {
     alignas(cmsghdr) std::array<char, host::reception_space> control;
   };
 
-  void read_calendar();
-
+  std::string interface_;
+  std::vector<std::uint16_t> others_;
   host::CanSocket socket_;
   host::CanSocket stops_;
   std::array<Slot, greatest_frames_per_tick> slots_{};
   std::array<mmsghdr, greatest_frames_per_tick> messages_{};
-  std::int64_t calendar_ns_ = 0;  // CLOCK_REALTIME less CLOCK_MONOTONIC
-  std::uint32_t receptions_ = 0;
+  host::StampClock stamps_;
   FrameBatch batch_;
-  bool gone_ = false;
+  std::atomic<bool> gone_ = false;
 };
 
 static_assert(loop::Bus<RealTimeSocket, std::int64_t>);

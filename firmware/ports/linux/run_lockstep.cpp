@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/ports/linux/run_lockstep.hpp"
 
+#include <fmt/core.h>
+
 #include <span>
+#include <utility>
 
 #include "firmware/host/stop_signal.hpp"
 #include "firmware/loop/built_in_node.hpp"
@@ -17,6 +20,8 @@ namespace {
 // A stop waits on the other socket for this long at most.
 constexpr std::chrono::milliseconds wait_limit{2};
 constexpr std::chrono::milliseconds fault_report_period{can::layout<can::FaultReport>.info.period_ms};
+
+constexpr std::chrono::milliseconds patience{500};  // with a queue that is full
 
 // Two sockets as the loop's bus, a frame at a time, stops before all others. In lockstep nothing is measured, and a
 // frame is as old as the logical time says.
@@ -34,10 +39,16 @@ class LockstepBus {
     frame_.age_ms = 0;
     return {.frames = std::span(&frame_, frame ? 1 : 0)};
   }
+  // A full queue gets time, once for all of a tick's frames: in lockstep the peer waits for them.
   std::size_t try_send(std::span<const can::Frame> frames) {
     std::size_t taken = 0;
+    bool was_taken = true;
     for (const can::Frame& frame : frames) {
-      taken += socket_->send(frame) ? 1 : 0;
+      was_taken = was_taken ? socket_->send(frame, patience) : socket_->send(frame);
+      taken += was_taken ? 1 : 0;
+    }
+    if (taken < frames.size()) {
+      tell_full_queue();
     }
     return taken;
   }
@@ -45,9 +56,16 @@ class LockstepBus {
   [[nodiscard]] std::uint32_t lost() { return socket_->lost(); }
 
  private:
+  void tell_full_queue() {
+    if (!std::exchange(told_, true)) {
+      fmt::print(stderr, "striker-firmware: {}: frames are dropped\n", socket_->full_queue(patience));
+    }
+  }
+
   host::CanSocket* socket_;
   host::CanSocket* stops_;
   can::Frame frame_;
+  bool told_ = false;
 };
 
 static_assert(loop::Bus<LockstepBus, std::int64_t>);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/host/option_checks.hpp"
+#include "firmware/host/options/option_checks.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
