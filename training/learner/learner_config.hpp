@@ -75,7 +75,7 @@ struct MirrorImage {
 struct LearnerSetup {
   Shape shape;
   LearnerConfig learner;
-  RolloutConfig rollout;
+  RolloutConfig rollout = {};
   OptimiserConfig optimiser;
   ExplorationConfig exploration;
   int planned_episodes = 0;  // the schedules end with them

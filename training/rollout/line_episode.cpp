@@ -43,8 +43,11 @@ std::string LineKick::unfit(const TaskConfig& task) {
   if (task.equations != Equations::corrected) {
     return "task.equations: must be \"corrected\"";
   }
-  if (task.rules.every_contact || task.goes_on) {
-    return "reward: contacts must be \"first\" and after_contact \"end\": a play ends with its contact";
+  if (task.rules.every_contact) {
+    return "reward.contacts: must be \"first\"";
+  }
+  if (task.goes_on) {
+    return "reward.after_contact: must be \"end\"";
   }
   const auto controllers = [](const StateInput& input) {
     return facts_of(input.element).raw_per_value != 0.0;

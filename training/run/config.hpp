@@ -30,7 +30,7 @@ struct Config {
   std::vector<TaskConfig> environments;  // played in turn, episode by episode; the first one validates
   Shape shape;
   LearnerConfig learner;
-  RolloutConfig rollout;
+  RolloutConfig rollout = {};
   OptimiserConfig optimiser;
   ExplorationConfig exploration;
 };
