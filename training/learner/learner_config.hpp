@@ -40,14 +40,14 @@ struct LearnerConfig {
 
 // What only the learner from own rollouts has.
 struct RolloutConfig {
-  int round_episodes = 0;        // played at once, then learnt from; `rollout.round`
-  int planner_episodes = 0;      // labels are the planner's in the first so many episodes
-  int longest_hold = 0;          // decisions that an exploration holds its action
-  double passes = 0.0;           // how often each label is drawn, on the average
-  double focus = 0.0;            // so many times as many labels where actions are near each other, at the most
-  double pairwise_share = 0.0;   // of the training, with the pairwise loss; then with the expected regret, ...
-  double pairwise_rest = 0.0;    // ... beside which the pairwise loss keeps this weight
-  double temperature = 0.0;      // of the softmax, in units of the reward
+  int round_episodes = 0;       // played at once, then learnt from; `rollout.round`
+  int planner_episodes = 0;     // labels are the planner's in the first so many episodes
+  int longest_hold = 0;         // decisions that an exploration holds its action
+  double passes = 0.0;          // how often each label is drawn, on the average
+  double focus = 0.0;           // so many times as many labels where actions are near each other, at the most
+  double pairwise_share = 0.0;  // of the training, with the pairwise loss; then with the expected regret, ...
+  double pairwise_rest = 0.0;   // ... beside which the pairwise loss keeps this weight
+  double temperature = 0.0;     // of the softmax, in units of the reward
   double greatest_regret = 0.0;  // a worse action counts as much
   double value_weight = 0.0;     // of the error of the greatest output as a value
 };

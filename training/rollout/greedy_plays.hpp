@@ -24,12 +24,14 @@ struct LinePlay {
 // One thread uses one.
 class GreedyPlays {
  public:
-  explicit GreedyPlays(const Shape& shape) : features_(shape.inputs, most_at_once), pass_(shape, most_at_once) {}
+  explicit GreedyPlays(const Shape& shape)
+      : features_(shape.inputs, most_at_once), pass_(shape, most_at_once) {}
 
   // Calls each(play, features, q) for those of `plays` that `active` numbers, in its order, each with what the network
   // makes of it; drops those from `active` for which it returns false.
   template <class Each>
-  void ask(const Parameters& network, std::span<LinePlay> plays, std::vector<std::uint32_t>& active, Each each);
+  void ask(const Parameters& network, std::span<LinePlay> plays, std::vector<std::uint32_t>& active,
+           Each each);
 
   // Plays all to their ends by the network.
   void finish(const Parameters& network, std::span<LinePlay> plays);
@@ -42,8 +44,8 @@ class GreedyPlays {
 };
 
 template <class Each>
-void GreedyPlays::ask(const Parameters& network, std::span<LinePlay> plays, std::vector<std::uint32_t>& active,
-                      Each each) {
+void GreedyPlays::ask(const Parameters& network, std::span<LinePlay> plays,
+                      std::vector<std::uint32_t>& active, Each each) {
   std::size_t kept = 0;
   for (std::size_t first = 0; first < active.size(); first += most_at_once) {
     const std::size_t count = std::min<std::size_t>(most_at_once, active.size() - first);

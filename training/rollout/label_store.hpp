@@ -22,7 +22,9 @@ class LabelStore {
   [[nodiscard]] Eigen::Index size() const { return pushed_ < columns_.cols() ? pushed_ : columns_.cols(); }
 
   [[nodiscard]] auto features(Eigen::Index place) const { return columns_.col(place).head(inputs_); }
-  [[nodiscard]] auto values(Eigen::Index place) const { return columns_.col(place).segment(inputs_, actions_); }
+  [[nodiscard]] auto values(Eigen::Index place) const {
+    return columns_.col(place).segment(inputs_, actions_);
+  }
   [[nodiscard]] float weight(Eigen::Index place) const { return columns_(inputs_ + actions_, place); }
 
   // For checkpoints.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "sil/world/random_streams.hpp"
@@ -17,18 +18,53 @@ bool moves(Element element) {
   return std::find(moving_elements.begin(), moving_elements.end(), element) != moving_elements.end();
 }
 
-sil::BallState rolled_for_a_decision(sil::BallState ball) {
-  for (int i = 0; i < steps_per_decision; ++i) {
-    auto& [position, velocity] = ball;
-    position = {position.x + physics_step_s * velocity.x, position.y + physics_step_s * velocity.y};
-    velocity = {sil::kept_in_10_ms * velocity.x, sil::kept_in_10_ms * velocity.y};
-  }
-  return ball;
+// The robot's next physics step (sil::straight_speed_m_s).
+void advance(LineState& robot, double set_point_m_s, double gain_limit_m_s) {
+  const double moved_m_s =
+      robot.speed_m_s + std::clamp(set_point_m_s - robot.speed_m_s, -gain_limit_m_s, gain_limit_m_s);
+  robot.position_m += physics_step_s * moved_m_s;
+  robot.speed_m_s = sil::kept_in_10_ms * moved_m_s;
 }
 
 // What the ball's place tells of its velocity, one vision frame after it was at `last_m`.
 sil::Vec2 estimated_velocity_m_s(sil::Vec2 now_m, sil::Vec2 last_m) {
   return {(now_m.x - last_m.x) / sil::decision_period_s, (now_m.y - last_m.y) / sil::decision_period_s};
+}
+
+double normal(sil::Random& random) {  // Box and Muller 1958
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+  return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
+}
+
+// What the camera sees of ball and robot, while the robot stands still: a frame a decision, from some before the first
+// decision on.
+constexpr int frames_before = 2;
+struct Picture {
+  sil::Vec2 ball_m, robot_m;
+  sil::Vec2 true_velocity_m_s;
+};
+using Pictures = std::array<Picture, sil::kick_decisions + frames_before>;
+
+Pictures pictures_of(const sil::KickStart& start, double kept, double noise_m, sil::Random& random) {
+  Pictures pictures;
+  sil::BallState ball = start.ball;
+  for (int frame = 0; frame < static_cast<int>(pictures.size()); ++frame) {
+    const int ahead = frames_before - frame;
+    const sil::BallState seen = ahead > 0 ? sil::ball_before(start, ahead * sil::decision_period_s) : ball;
+    Picture& picture = pictures[static_cast<std::size_t>(frame)];
+    picture = {.ball_m = seen.position_m, .robot_m = {}, .true_velocity_m_s = seen.velocity_m_s};
+    if (noise_m > 0.0) {
+      picture.robot_m = {noise_m * normal(random), noise_m * normal(random)};
+      picture.ball_m.x += noise_m * normal(random);
+      picture.ball_m.y += noise_m * normal(random);
+    }
+    for (int i = 0; ahead <= 0 && i < steps_per_decision; ++i) {
+      auto& [position, velocity] = ball;
+      position = {position.x + physics_step_s * velocity.x, position.y + physics_step_s * velocity.y};
+      velocity = {kept * velocity.x, kept * velocity.y};
+    }
+  }
+  return pictures;
 }
 
 }  // namespace
@@ -76,30 +112,37 @@ LineKick::LineKick(const TaskConfig& task) : task_(task) {
   }
 }
 
-LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number) const {
+LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number, const Conditions& conditions) const {
   const sil::KickStart start = sil::draw_kick(seed, number, task_.pose, task_.rules);
-  LineEpisode episode{.track = ball_track(start), .features = {}};
+  LineEpisode episode{.track = ball_track(start.ball, task_steps, ball_kept(conditions)),
+                      .gain_limit_m_s = gain_limit_m_s(conditions),
+                      .command_delay_steps = conditions.command_delay_steps,
+                      .vision_late_frames = conditions.vision_late_frames,
+                      .features = {}};
   episode.features.resize(static_cast<Eigen::Index>(task_.inputs.size()), sil::kick_decisions);
-  sil::Random none(0, 0, sil::random_stream::dummies);
+  sil::Random random(seed, number, sil::random_stream::vision_noise);
+  const Pictures pictures = pictures_of(start, ball_kept(conditions), conditions.vision_noise_m, random);
+  // A camera that errs or lags knows no true velocity.
+  const bool estimated = task_.velocities == Velocities::estimated || conditions.vision_noise_m > 0.0 ||
+                         conditions.vision_late_frames > 0;
   Features features(task_.inputs.size());
   History history;
-  sil::BallState ball = start.ball;
-  sil::Vec2 last_m = sil::ball_before(start, sil::decision_period_s).position_m;
   for (int decision = 0; decision < sil::kick_decisions; ++decision) {
+    const auto frame = static_cast<std::size_t>(decision + frames_before - conditions.vision_late_frames);
+    const Picture& seen = pictures[frame];
     DecisionState state;
     state.decisions_left = sil::kick_decisions - decision;
-    state.field = {.robot = start.robot, .robot_velocity_m_s = {}, .ball = ball};
-    if (task_.velocities == Velocities::estimated) {
-      state.field.ball.velocity_m_s = estimated_velocity_m_s(ball.position_m, last_m);
-    }
+    state.field.robot = {.x_m = seen.robot_m.x, .y_m = seen.robot_m.y, .heading_rad = 0.0};
+    state.field.ball = {.position_m = seen.ball_m,
+                        .velocity_m_s = estimated
+                                            ? estimated_velocity_m_s(seen.ball_m, pictures[frame - 1].ball_m)
+                                            : seen.true_velocity_m_s};
     state.rcs = rcs_state(state.field, task_.equations);
     decision == 0 ? history.begin(state) : history.add(state);
     const bool mirror = task_.one_sided && state.rcs.ball_y_m < 0.0;
-    write_features(task_.inputs, history, mirror, none, features);
+    write_features(task_.inputs, history, mirror, random, features);
     episode.features.col(decision) = features;
     episode.seen_ball_x_m[static_cast<std::size_t>(decision)] = state.rcs.ball_x_m;
-    last_m = ball.position_m;
-    ball = rolled_for_a_decision(ball);
   }
   return episode;
 }
@@ -107,14 +150,16 @@ LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number) const {
 void LineKick::look(const LineEpisode& episode, const LineRobot& robot,
                     Eigen::Ref<Eigen::VectorXf> features) const {
   features = episode.features.col(robot.decision);
+  const auto then = [&robot](int ago) -> const LineState& {
+    return ago == 0 ? robot.now : robot.before[static_cast<std::size_t>(ago - 1)];
+  };
   for (const auto& [row, input] : moving_) {
     const auto [element, ago] = input;
-    const LineState& then = ago == 0 ? robot.now : robot.before[static_cast<std::size_t>(ago - 1)];
-    const double value =
-        element == Element::robot_speed
-            ? then.speed_m_s
-            : episode.seen_ball_x_m[static_cast<std::size_t>(std::max(robot.decision - ago, 0))] -
-                  then.position_m;
+    double value = then(ago).speed_m_s;  // the wheels tell it at once
+    if (element == Element::ball_x) {
+      value = episode.seen_ball_x_m[static_cast<std::size_t>(std::max(robot.decision - ago, 0))] -
+              then(ago + episode.vision_late_frames).position_m;
+    }
     features[row] = static_cast<float>(value / facts_of(element).unit);
   }
 }
@@ -122,15 +167,18 @@ void LineKick::look(const LineEpisode& episode, const LineRobot& robot,
 void LineKick::step(const LineEpisode& episode, LineRobot& robot, int action) const {
   std::shift_right(robot.before.begin(), robot.before.end(), 1);
   robot.before.front() = robot.now;
+  const double new_set_point_m_s = set_point_m_s(action);
   const int first = robot.decision * steps_per_decision;
-  for (int step = first; step < first + steps_per_decision; ++step) {
-    if (episode.track.depth_m(step, robot.now.position_m) >= 0.0) {
+  for (int i = 0; i < steps_per_decision; ++i) {
+    if (episode.track.depth_m(first + i, robot.now.position_m) >= 0.0) {
       robot.over = robot.contact = true;
-      robot.reward = contact_reward(episode.track, step, robot.now);
+      robot.reward = contact_reward(episode.track, first + i, robot.now);
       return;
     }
-    advance(robot.now, set_point_m_s(action));
+    advance(robot.now, i < episode.command_delay_steps ? robot.set_point_m_s : new_set_point_m_s,
+            episode.gain_limit_m_s);
   }
+  robot.set_point_m_s = new_set_point_m_s;
   ++robot.decision;
   if (robot.decision * steps_per_decision >= episode.track.end) {
     robot.over = true;
@@ -144,7 +192,8 @@ double LineKick::contact_reward(const BallTrack& track, int step, const LineStat
   const double ahead_m = track.x_m[n] - robot.position_m;
   const double speed_m_s = rules.signed_speed ? robot.speed_m_s : std::abs(robot.speed_m_s);
   return rules.waiting_reward * (step / steps_per_decision) +
-         rules.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) + rules.speed_reward_s_m * speed_m_s;
+         rules.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) +
+         rules.speed_reward_s_m * speed_m_s;
 }
 
 double LineKick::most_reward(int decision) const {

@@ -38,9 +38,7 @@ double held_to_the_end(const LineKick& kick, const LineEpisode& episode, LineRob
 double plan_reward(const LineKick& kick, const LineEpisode& episode, const LineRobot& robot) {
   const PlanActions actions = plan_actions(kick);
   double best = kick.no_contact_reward();
-  const auto hopeless = [&](const LineRobot& at) {
-    return at.over || kick.most_reward(at.decision) <= best;
-  };
+  const auto hopeless = [&](const LineRobot& at) { return at.over || kick.most_reward(at.decision) <= best; };
   LineRobot reversed = robot;
   for (int reverse = 0; reverse <= most_reverse && !hopeless(reversed); ++reverse) {
     LineRobot waited = reversed;

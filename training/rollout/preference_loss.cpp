@@ -34,7 +34,8 @@ PreferenceFigures differentiate(const PreferenceLoss& loss, const Eigen::Ref<con
     figures.expected_regret += gradient[a] * regret(a);
   }
   figures.value_error = greatest_q - best_value;
-  figures.loss = loss.expected * figures.expected_regret + loss.value * figures.value_error * figures.value_error;
+  figures.loss =
+      loss.expected * figures.expected_regret + loss.value * figures.value_error * figures.value_error;
 
   const float to_all = 2.0F * loss.value * figures.value_error / static_cast<float>(q.size());
   for (Eigen::Index a = 0; a < q.size(); ++a) {

@@ -24,7 +24,8 @@ RolloutState initial_state(const LearnerSetup& setup, std::uint64_t seed) {
 
 }  // namespace
 
-RolloutLearner::RolloutLearner(const LearnerSetup& setup, const std::vector<TaskConfig>& tasks, std::uint64_t seed)
+RolloutLearner::RolloutLearner(const LearnerSetup& setup, const std::vector<TaskConfig>& tasks,
+                               std::uint64_t seed)
     : setup_(setup),
       seed_(seed),
       state_(initial_state(setup, seed)),
@@ -43,12 +44,13 @@ void RolloutLearner::begin_from(const Parameters& parameters) {
 std::vector<EpisodeRow> RolloutLearner::play_round(int first, int count) {
   const double progress = share_of(first, setup_.planned_episodes);
   const ExplorationConfig& exploration = setup_.exploration;
-  const RoundPlan plan{.seed = seed_,
-                       .first_episode = first,
-                       .episodes = count,
-                       .epsilon = course(exploration.schedule, exploration.epsilon_start, exploration.epsilon_end,
-                                         share_of(first, exploration.decay_episodes)),
-                       .by_plans = first < setup_.rollout.planner_episodes};
+  const RoundPlan plan{
+      .seed = seed_,
+      .first_episode = first,
+      .episodes = count,
+      .epsilon = course(exploration.schedule, exploration.epsilon_start, exploration.epsilon_end,
+                        share_of(first, exploration.decay_episodes)),
+      .by_plans = first < setup_.rollout.planner_episodes};
   std::vector<EpisodeRow> rows = rollouts_.round(state_.average, plan, state_.exploring, state_.labels);
   const OptimiserConfig& optimiser = setup_.optimiser;
   EpisodeRow figures{.episode = first};

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "sil/world/random_streams.hpp"
 #include "training/rollout/planner.hpp"
 #include "training/task/episode_numbers.hpp"
 
@@ -20,6 +22,19 @@ float gap_of(const Values& q, int greedy) {
   return q[greedy] - second;
 }
 
+// The nominal ones, or drawn within ranges that grow with the training.
+Conditions conditions_of(const RandomiseConfig& config, const RoundPlan& plan, int i) {
+  const int episode = plan.first_episode + i;
+  sil::Random random(plan.seed, first_training_episode + static_cast<std::uint64_t>(episode),
+                     sil::random_stream::conditions);
+  if (random.uniform() >= config.share) {
+    return {};
+  }
+  const double strength =
+      config.ramp_episodes == 0 ? 1.0 : std::min(1.0, static_cast<double>(episode) / config.ramp_episodes);
+  return draw_conditions(config, strength, random);
+}
+
 // Differences below this are rounding.
 constexpr float least_difference = 1e-6F;
 
@@ -30,8 +45,8 @@ Rollouts::Rollouts(const Shape& shape, const RolloutConfig& config, const std::v
   visited_.resize(shape.inputs, static_cast<Eigen::Index>(config.round_episodes) * sil::kick_decisions);
 }
 
-std::vector<EpisodeRow> Rollouts::round(const Parameters& network, const RoundPlan& plan, sil::Random& exploring,
-                                        LabelStore& labels) {
+std::vector<EpisodeRow> Rollouts::round(const Parameters& network, const RoundPlan& plan,
+                                        sil::Random& exploring, LabelStore& labels) {
   begin(plan);
   play(network, plan.epsilon, exploring);
   if (!plan.by_plans) {
@@ -46,7 +61,8 @@ void Rollouts::begin(const RoundPlan& plan) {
   plays_.clear();
   for (int i = 0; i < plan.episodes; ++i) {
     const std::uint64_t number = first_training_episode + static_cast<std::uint64_t>(plan.first_episode + i);
-    episodes_.push_back(kicks_[number % kicks_.size()].draw(plan.seed, number));
+    const LineKick& kick = kicks_[number % kicks_.size()];
+    episodes_.push_back(kick.draw(plan.seed, number, conditions_of(kick.task().randomise, plan, i)));
   }
   for (int i = 0; i < plan.episodes; ++i) {
     const std::uint64_t number = first_training_episode + static_cast<std::uint64_t>(plan.first_episode + i);
@@ -63,8 +79,10 @@ void Rollouts::begin(const RoundPlan& plan) {
 int Rollouts::explored(Exploration& exploration, int greedy, int decision, double epsilon,
                        sil::Random& exploring) const {
   if (exploration.held == 0 && exploring.uniform() < epsilon) {
-    exploration.held = 1 + static_cast<int>(exploring.below(static_cast<std::uint64_t>(config_.longest_hold)));
-    exploration.action = static_cast<int>(exploring.below(static_cast<std::uint64_t>(kicks_.front().actions())));
+    exploration.held =
+        1 + static_cast<int>(exploring.below(static_cast<std::uint64_t>(config_.longest_hold)));
+    exploration.action =
+        static_cast<int>(exploring.below(static_cast<std::uint64_t>(kicks_.front().actions())));
   }
   if (exploration.held == 0) {
     return greedy;
@@ -82,16 +100,17 @@ void Rollouts::play(const Parameters& network, double epsilon, sil::Random& expl
     active[i] = i;
   }
   while (!active.empty()) {
-    greedy_plays_.ask(network, plays_, active, [&](std::uint32_t number, const auto& features, const auto& q) {
-      LinePlay& play = plays_[number];
-      const int greedy = greedy_action(q);
-      visited_.col(static_cast<Eigen::Index>(visits_.size())) = features;
-      visits_.push_back({.play = number, .robot = play.robot, .greedy = greedy, .gap = gap_of(q, greedy)});
-      const int action =
-          explored(explorations_[number], greedy, play.robot.decision, epsilon, exploring);
-      play.kick->step(*play.episode, play.robot, action);
-      return !play.robot.over;
-    });
+    greedy_plays_.ask(
+        network, plays_, active, [&](std::uint32_t number, const auto& features, const auto& q) {
+          LinePlay& play = plays_[number];
+          const int greedy = greedy_action(q);
+          visited_.col(static_cast<Eigen::Index>(visits_.size())) = features;
+          visits_.push_back(
+              {.play = number, .robot = play.robot, .greedy = greedy, .gap = gap_of(q, greedy)});
+          const int action = explored(explorations_[number], greedy, play.robot.decision, epsilon, exploring);
+          play.kick->step(*play.episode, play.robot, action);
+          return !play.robot.over;
+        });
   }
 }
 

@@ -19,7 +19,7 @@ struct RoundPlan {
   std::uint64_t seed = 0;
   int first_episode = 0;  // of the training
   int episodes = 0;
-  double epsilon = 0.0;  // of each decision: the probability that an exploration begins
+  double epsilon = 0.0;   // of each decision: the probability that an exploration begins
   bool by_plans = false;  // labels are what the planner gets after the action, not the network
 };
 
@@ -50,7 +50,8 @@ class Rollouts {
 
   void begin(const RoundPlan& plan);
   void play(const Parameters& network, double epsilon, sil::Random& exploring);
-  int explored(Exploration& exploration, int greedy, int decision, double epsilon, sil::Random& exploring) const;
+  int explored(Exploration& exploration, int greedy, int decision, double epsilon,
+               sil::Random& exploring) const;
   void choose_labelled(sil::Random& exploring);
   void label(const Parameters& network, bool by_plans, LabelStore& labels);
   [[nodiscard]] std::vector<EpisodeRow> rows(const RoundPlan& plan) const;

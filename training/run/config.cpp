@@ -77,6 +77,7 @@ std::string canonical_text(toml::table root) {
   if (learner["kind"].value<std::string>() == default_learner) {
     learner.erase("kind");
     root.erase("rollout");
+    root.erase("randomise");
   }
   std::ostringstream every_key;
   every_key << root << '\n';

@@ -11,18 +11,25 @@ namespace striker::training {
 
 namespace {
 
-constexpr std::array dqn_keys = {"learner.gamma",       "learner.n_step",
-                                 "learner.time_limit",  "learner.cut_at_exploration",
-                                 "learner.double_dqn",  "learner.huber",
-                                 "learner.mirror",      "learner.target_period",
-                                 "learner.target_rate", "learner.gradient_steps",
-                                 "learner.clip_norm",   "learner.int8_weights",
-                                 "learner.prioritised", "learner.priority_exponent",
+constexpr std::array dqn_keys = {"learner.gamma",
+                                 "learner.n_step",
+                                 "learner.time_limit",
+                                 "learner.cut_at_exploration",
+                                 "learner.double_dqn",
+                                 "learner.huber",
+                                 "learner.mirror",
+                                 "learner.target_period",
+                                 "learner.target_rate",
+                                 "learner.gradient_steps",
+                                 "learner.clip_norm",
+                                 "learner.int8_weights",
+                                 "learner.prioritised",
+                                 "learner.priority_exponent",
                                  "learner.priority_correction"};
 constexpr std::array rollout_keys = {
-    "rollout.round",          "rollout.planner_episodes", "rollout.longest_hold",  "rollout.passes",
-    "rollout.focus",          "rollout.pairwise_share",   "rollout.pairwise_rest", "rollout.temperature",
-    "rollout.greatest_regret", "rollout.value_weight"};
+    "rollout.round",           "rollout.planner_episodes", "rollout.longest_hold",  "rollout.passes",
+    "rollout.focus",           "rollout.pairwise_share",   "rollout.pairwise_rest", "rollout.temperature",
+    "rollout.greatest_regret", "rollout.value_weight",     "randomise.share"};
 
 std::string value_of(const TomlReader& reader, const std::string& key) {
   std::ostringstream text;
@@ -87,7 +94,8 @@ void read_exploration(const TomlReader& reader, ExplorationConfig& exploration) 
 void require_no_other_learners_keys(const TomlReader& reader, const TomlReader& defaults, LearnerKind kind) {
   const auto require_default = [&](const std::string& key, const std::string& others_kind) {
     if (value_of(reader, key) != value_of(defaults, key)) {
-      reader.fail(key, "only learner.kind = \"" + others_kind + "\" reads it: leave it out, or change learner.kind");
+      reader.fail(
+          key, "only learner.kind = \"" + others_kind + "\" reads it: leave it out, or change learner.kind");
     }
   };
   if (kind == LearnerKind::rollout) {

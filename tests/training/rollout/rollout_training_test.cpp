@@ -83,31 +83,33 @@ TEST(RolloutTraining, EveryOptionMatters) {
   const Parameters plain = learnt({});
   for (const char* change :
        {"rollout.round=50", "rollout.planner_episodes=0", "rollout.longest_hold=2", "rollout.passes=4.0",
-        "rollout.focus=1.0", "rollout.pairwise_share=0.9", "rollout.pairwise_rest=0.0", "rollout.temperature=1.0",
-        "rollout.greatest_regret=0.5", "rollout.value_weight=0.1", "learner.batch=128", "learner.warm_up=1000",
-        "learner.replay_size=500", "optimiser.averaging=0.9", "optimiser.learning_rate=1e-3",
-        "exploration.epsilon_end=0.5", "task.mirrored=false", "task.velocities=\"true\""}) {
+        "rollout.focus=1.0", "rollout.pairwise_share=0.9", "rollout.pairwise_rest=0.0",
+        "rollout.temperature=1.0", "rollout.greatest_regret=0.5", "rollout.value_weight=0.1",
+        "learner.batch=128", "learner.warm_up=1000", "learner.replay_size=500", "optimiser.averaging=0.9",
+        "optimiser.learning_rate=1e-3", "exploration.epsilon_end=0.5", "task.mirrored=false",
+        "task.velocities=\"true\""}) {
     EXPECT_FALSE(plain == learnt({change})) << change;
   }
 }
 
 // Three thousand episodes of a small network: more than the best scripted rival gets but for the planner (6.92).
 TEST(RolloutTraining, LearnsToKick) {
-  Training training(small_config({"run.episodes=6000", "run.validation_episodes=2000", "network.hidden=[48, 48]",
-                                  "rollout.round=200", "rollout.planner_episodes=2000", "learner.replay_size=60000",
-                                  "exploration.decay_episodes=1500", "optimiser.averaging=0.99",
-                                  "learner.batch=128"}),
-                    1);
+  Training training(
+      small_config({"run.episodes=6000", "run.validation_episodes=2000", "network.hidden=[48, 48]",
+                    "rollout.round=200", "rollout.planner_episodes=2000", "learner.replay_size=60000",
+                    "exploration.decay_episodes=1500", "optimiser.averaging=0.99", "learner.batch=128"}),
+      1);
   (void)play_all(training);
   EXPECT_GT(validation_mean(training, training.result()), 6.5);
 }
 
 // Greedy play is worth what the greatest output says.
 TEST(RolloutTraining, TheOutputsAreValues) {
-  Training training(small_config({"run.episodes=6000", "network.hidden=[48, 48]", "rollout.round=200",
-                                  "rollout.planner_episodes=2000", "learner.replay_size=60000", "rollout.value_weight=0.1",
-                                  "exploration.decay_episodes=1500", "learner.batch=128"}),
-                    1);
+  Training training(
+      small_config({"run.episodes=6000", "network.hidden=[48, 48]", "rollout.round=200",
+                    "rollout.planner_episodes=2000", "learner.replay_size=60000", "rollout.value_weight=0.1",
+                    "exploration.decay_episodes=1500", "learner.batch=128"}),
+      1);
   (void)play_all(training);
   const Parameters network = training.result();
   KickEnvironment env(training.config().environments.front());

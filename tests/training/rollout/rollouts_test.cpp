@@ -37,9 +37,9 @@ class Explorer {
 // The reward of an episode that begins with these actions and goes on greedily.
 double reward_of(KickEnvironment& env, GreedyRule& greedy, int episode, const std::vector<int>& begin) {
   std::size_t next = 0;
-  return play(env, seed, first_training_episode + static_cast<std::uint64_t>(episode), [&](const auto& seen) {
-           return next < begin.size() ? begin[next++] : greedy(seen);
-         }).reward;
+  return play(env, seed, first_training_episode + static_cast<std::uint64_t>(episode),
+              [&](const auto& seen) { return next < begin.size() ? begin[next++] : greedy(seen); })
+      .reward;
 }
 
 class Labels : public testing::TestWithParam<double> {};
@@ -56,8 +56,9 @@ TEST_P(Labels, AreWhatTheEnvironmentPays) {
     sil::Random exploring(seed, static_cast<std::uint64_t>(episode), 1);
     sil::Random beside = exploring;
     LabelStore labels(6, 3, 100);
-    const auto rows = rollouts.round(
-        network, {.seed = seed, .first_episode = episode, .episodes = 1, .epsilon = epsilon}, exploring, labels);
+    const auto rows =
+        rollouts.round(network, {.seed = seed, .first_episode = episode, .episodes = 1, .epsilon = epsilon},
+                       exploring, labels);
     Explorer explorer(epsilon, 3);
     std::vector<int> played;
     std::vector<std::pair<Features, Eigen::Vector3d>> expected;

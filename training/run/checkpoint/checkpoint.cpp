@@ -42,7 +42,8 @@ std::string history_of(const SafeTensors& checkpoint, const std::vector<ChangedK
   return history;
 }
 
-RunState restore(const SafeTensors& checkpoint, const Config& config, std::uint64_t seed, AnyLearner& learner) {
+RunState restore(const SafeTensors& checkpoint, const Config& config, std::uint64_t seed,
+                 AnyLearner& learner) {
   const std::vector<ChangedKey> changes = changed_keys(text(checkpoint, "configuration"), config.text);
   require_may_change(changes);
   if (number<std::uint64_t>(checkpoint, "seed") != seed) {
