@@ -80,7 +80,7 @@ void set(Variation& variation, std::string_view name, std::string_view value) {
 class NoisyCamera final : public Camera {
  public:
   NoisyCamera(double noise_m, std::uint64_t seed)
-      : exact_(0), noise_m_(noise_m), random_(seed, 0, random_stream::vision_noise) {}
+      : exact_(0), noise_m_(noise_m), random_(seed, 0, random_stream::camera_noise) {}
 
   [[nodiscard]] Picture look(const World& world) override {
     Picture picture = exact_.look(world);

@@ -13,9 +13,11 @@
 
 namespace striker::sil::random_stream {
 
-inline constexpr std::uint64_t ball = 1;       // index: the episode
-inline constexpr std::uint64_t pose = 2;       // index: the episode
-inline constexpr std::uint64_t weights = 101;  // the network that a training begins with
+inline constexpr std::uint64_t ball = 1;        // index: the episode
+inline constexpr std::uint64_t pose = 2;        // index: the episode
+inline constexpr std::uint64_t conditions = 3;  // of a robot that is not the nominal one; index: the episode
+inline constexpr std::uint64_t vision_noise = 4;  // that a training's camera adds; index: the episode
+inline constexpr std::uint64_t weights = 101;     // the network that a training begins with
 inline constexpr std::uint64_t exploration = 102;
 inline constexpr std::uint64_t sampling = 103;      // from the replay buffer
 inline constexpr std::uint64_t calibration = 104;   // random play before an export; index: the episode
@@ -24,13 +26,13 @@ inline constexpr std::uint64_t bootstrap = 106;     // resampled runs of an expe
 inline constexpr std::uint64_t random_rival = 107;  // index: the episode
 inline constexpr std::uint64_t faults = 201;        // what a fault draws; index: the fault's own stream
 inline constexpr std::uint64_t campaign = 202;      // which faults a campaign's run has; index: the run
-inline constexpr std::uint64_t vision_noise = 203;  // of a camera
+inline constexpr std::uint64_t camera_noise = 203;  // of a camera
 
 namespace detail {
 
 consteval bool all_differ() {
-  std::array numbers = {ball,    pose,      weights,      exploration, sampling, calibration,
-                        dummies, bootstrap, random_rival, faults,      campaign, vision_noise};
+  std::array numbers = {ball,        pose,    conditions, vision_noise, weights, exploration, sampling,
+                        calibration, dummies, bootstrap,  random_rival, faults,  campaign,    camera_noise};
   std::sort(numbers.begin(), numbers.end());
   return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
 }

@@ -81,7 +81,9 @@ inline Config short_config(int episodes) {
 inline std::vector<CurveRow> play_all(Training& training) {
   std::vector<CurveRow> rows;
   while (!training.done()) {
-    rows.push_back(training.play_episode());
+    for (const CurveRow& row : training.play_round()) {
+      rows.push_back(row);
+    }
   }
   return rows;
 }

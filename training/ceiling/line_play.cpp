@@ -47,7 +47,7 @@ PlanEnding drive(PlanProgress& progress, const BallTrack& track, int action, dou
 
 }  // namespace
 
-BallTrack ball_track(const sil::BallState& ball, int steps) {
+BallTrack ball_track(const sil::BallState& ball, int steps, double kept) {
   BallTrack track;
   auto [position, velocity] = ball;
   track.first = steps;
@@ -61,7 +61,7 @@ BallTrack ball_track(const sil::BallState& ball, int steps) {
       track.end = i + 1;
     }
     position = {position.x + physics_step_s * velocity.x, position.y + physics_step_s * velocity.y};
-    velocity = {sil::kept_in_10_ms * velocity.x, sil::kept_in_10_ms * velocity.y};
+    velocity = {kept * velocity.x, kept * velocity.y};
   }
   track.first = std::min(track.first, track.end);
   return track;

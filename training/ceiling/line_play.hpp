@@ -63,8 +63,10 @@ struct BallTrack {
   }
 };
 
-// `ball` in the robot's frame, now; only `steps` physics steps are left.
-[[nodiscard]] BallTrack ball_track(const sil::BallState& ball, int steps = task_steps);
+// `ball` in the robot's frame, now; only `steps` physics steps are left, in each of which it keeps the share `kept` of
+// its velocity.
+[[nodiscard]] BallTrack ball_track(const sil::BallState& ball, int steps = task_steps,
+                                   double kept = sil::kept_in_10_ms);
 [[nodiscard]] BallTrack ball_track(const sil::KickStart& start);
 
 // What the contact pays that is found before this step, with the decisions waited from step 0 on.

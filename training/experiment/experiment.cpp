@@ -81,8 +81,9 @@ std::string trained_curve(Training& training, const SeedRun& run) {
   std::string curve = curve_header;
   try {
     while (!training.done()) {
-      const CurveRow row = training.play_episode();
-      curve += fmt::format("{},{:.6f},{:.6f}\n", row.episode.episode, row.episode.reward, row.moving_average);
+      for (const auto& [episode, moving_average] : training.play_round()) {
+        curve += fmt::format("{},{:.6f},{:.6f}\n", episode.episode, episode.reward, moving_average);
+      }
     }
   } catch (const Divergence& divergence) {
     throw std::runtime_error(
@@ -160,7 +161,7 @@ void carry_out(const SeedRun& run, const std::filesystem::path& directory) {
       {"seed", run.seed},
       {"configuration_hash", configuration_hash(*run.variant)},
       {"identity", model.metadata.at("identity")},
-      {"decisions", training.learner().state().decisions},
+      {"decisions", training.decisions()},
       {"evaluation_seed", evaluation_seed},
       {"evaluation_episodes", evaluation_episodes},
       {"origin_mean", mean_reward_at(sil::PoseMode::origin, task, model.parameters)},

@@ -3,33 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "sil/world/random_streams.hpp"
+#include "training/learner/course.hpp"
 #include "training/learner/divergence.hpp"
 
 namespace striker::training {
 
 namespace {
-
-// From start to end as `share` goes from 0 to 1, and end after that.
-double course(Course form, double start, double end, double share) {
-  const double at = std::clamp(share, 0.0, 1.0);
-  switch (form) {
-    case Course::exponential:
-      return start * std::pow(std::max(end, 1e-6) / std::max(start, 1e-6), at);
-    case Course::cosine:
-      return end + (start - end) * 0.5 * (1.0 + std::cos(std::numbers::pi * at));
-    case Course::linear:
-      break;
-  }
-  return start + (end - start) * at;
-}
-
-double share_of(int part, int whole) {
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
 
 LearnerState initial_state(const LearnerSetup& setup, std::uint64_t seed) {
   const Parameters parameters = initial_parameters(setup.shape, seed);

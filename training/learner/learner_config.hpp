@@ -13,7 +13,11 @@ namespace striker::training {
 // How a number goes from its first value to its last one.
 enum class Course { linear, cosine, exponential };
 
+// `learner.kind`: DQN (dqn.hpp), or from own rollouts (training/rollout/rollout_learner.hpp).
+enum class LearnerKind { dqn, rollout };
+
 struct LearnerConfig {
+  LearnerKind kind = LearnerKind::dqn;
   double gamma = 0.0;               // discount of a reward one decision later, 0 to 1
   int n_step = 0;                   // decisions whose rewards are summed before the target network's value
   bool cut_at_exploration = false;  // that sum ends before a random action (Watkins's rule)
@@ -32,6 +36,20 @@ struct LearnerConfig {
   bool prioritised = false;
   double priority_exponent = 0.0;    // alpha of Schaul et al. 2016
   double priority_correction = 0.0;  // beta at the start; 1 at the end
+};
+
+// What only the learner from own rollouts has.
+struct RolloutConfig {
+  int round_episodes = 0;       // played at once, then learnt from; `rollout.round`
+  int planner_episodes = 0;     // labels are the planner's in the first so many episodes
+  int longest_hold = 0;         // decisions that an exploration holds its action
+  double passes = 0.0;          // how often each label is drawn, on the average
+  double focus = 0.0;           // so many times as many labels where actions are near each other, at the most
+  double pairwise_share = 0.0;  // of the training, with the pairwise loss; then with the expected regret, ...
+  double pairwise_rest = 0.0;   // ... beside which the pairwise loss keeps this weight
+  double temperature = 0.0;     // of the softmax, in units of the reward
+  double greatest_regret = 0.0;  // a worse action counts as much
+  double value_weight = 0.0;     // of the error of the greatest output as a value
 };
 
 struct OptimiserConfig {
@@ -57,6 +75,7 @@ struct MirrorImage {
 struct LearnerSetup {
   Shape shape;
   LearnerConfig learner;
+  RolloutConfig rollout = {};
   OptimiserConfig optimiser;
   ExplorationConfig exploration;
   int planned_episodes = 0;  // the schedules end with them

@@ -11,6 +11,7 @@
 
 #include "firmware/host/files.hpp"
 #include "paper_toml.hpp"
+#include "training/run/learner_reader.hpp"
 #include "training/run/task_reader.hpp"
 #include "training/run/toml_reader.hpp"
 
@@ -19,6 +20,7 @@ namespace striker::training {
 namespace {
 
 constexpr const char* default_kind = "kick";
+constexpr const char* default_learner = "dqn";
 
 toml::table parse(std::string_view text, const std::string& file) {
   try {
@@ -72,30 +74,14 @@ std::string canonical_text(toml::table root) {
   if (learner["time_limit"].value<bool>() == false) {
     learner.erase("time_limit");
   }
+  if (learner["kind"].value<std::string>() == default_learner) {
+    learner.erase("kind");
+    root.erase("rollout");
+    root.erase("randomise");
+  }
   std::ostringstream every_key;
   every_key << root << '\n';
   return every_key.str();
-}
-
-void read_learner(const TomlReader& reader, LearnerConfig& learner) {
-  reader.read("learner.gamma", learner.gamma, 0.0, 1.0);
-  reader.read("learner.n_step", learner.n_step, 1, sil::kick_decisions);
-  reader.read("learner.cut_at_exploration", learner.cut_at_exploration);
-  reader.read("learner.time_limit", learner.time_limit);
-  reader.read("learner.double_dqn", learner.double_dqn);
-  reader.read("learner.huber", learner.huber);
-  reader.read("learner.mirror", learner.augment_mirrored);
-  reader.read("learner.batch", learner.batch, 2, 4096);
-  reader.read("learner.replay_size", learner.replay_size, 1, 10'000'000);
-  reader.read("learner.warm_up", learner.warm_up, 1, 10'000'000);
-  reader.read("learner.target_period", learner.target_period, 1, 1'000'000);
-  reader.read("learner.target_rate", learner.target_rate, 1e-6, 1.0);
-  reader.read("learner.gradient_steps", learner.gradient_steps, 0, 100);
-  reader.read("learner.int8_weights", learner.int8_weights);
-  reader.read("learner.clip_norm", learner.clip_norm, 0.0, 1e6);
-  reader.read("learner.prioritised", learner.prioritised);
-  reader.read("learner.priority_exponent", learner.priority_exponent, 0.0, 1.0);
-  reader.read("learner.priority_correction", learner.priority_correction, 0.0, 1.0);
 }
 
 Shape read_shape(const TomlReader& reader, const TaskConfig& task) {
@@ -119,7 +105,8 @@ std::string_view default_configuration() {
 }
 
 Config parse_config(std::string_view text, const std::string& file, const std::vector<std::string>& changes) {
-  toml::table root = parse(paper_toml, "paper.toml");
+  const toml::table defaults = parse(paper_toml, "paper.toml");
+  toml::table root = defaults;
   override_with(parse(text, file), root, file);
   for (const std::string& change : changes) {
     override_with(parse(change, "--set " + change), root, "--set " + change);
@@ -135,17 +122,14 @@ Config parse_config(std::string_view text, const std::string& file, const std::v
   config.environments = read_environments(reader);
   config.shape = read_shape(reader, config.environments.front());
   read_learner(reader, config.learner);
+  read_rollout(reader, config.rollout);
   require_mirror_images(reader, config.environments.front(), config.learner.augment_mirrored);
-  reader.read("optimiser.learning_rate", config.optimiser.learning_rate, 1e-7, 1.0);
-  reader.read("optimiser.final_fraction", config.optimiser.final_fraction, 0.0, 1.0);
-  reader.read<Course>("optimiser.schedule", config.optimiser.schedule,
-                      {{"linear", Course::linear}, {"cosine", Course::cosine}});
-  reader.read("optimiser.averaging", config.optimiser.averaging, 0.0, 0.999999);
-  reader.read("exploration.epsilon_start", config.exploration.epsilon_start, 0.0, 1.0);
-  reader.read("exploration.epsilon_end", config.exploration.epsilon_end, 0.0, 1.0);
-  reader.read("exploration.decay_episodes", config.exploration.decay_episodes, 1, 10'000'000);
-  reader.read<Course>("exploration.schedule", config.exploration.schedule,
-                      {{"linear", Course::linear}, {"exponential", Course::exponential}});
+  read_optimiser(reader, config.optimiser);
+  read_exploration(reader, config.exploration);
+  require_no_other_learners_keys(reader, TomlReader(defaults, "paper.toml"), config.learner.kind);
+  if (config.learner.kind == LearnerKind::rollout) {
+    require_line_task(reader, config.environments.front());
+  }
   return config;
 }
 
@@ -157,6 +141,7 @@ LearnerSetup setup_of(const Config& config) {
   const TaskConfig& task = config.environments.front();
   LearnerSetup setup{.shape = config.shape,
                      .learner = config.learner,
+                     .rollout = config.rollout,
                      .optimiser = config.optimiser,
                      .exploration = config.exploration,
                      .planned_episodes = config.run.episodes,

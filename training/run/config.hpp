@@ -23,13 +23,14 @@ struct RunConfig {
 struct Config {
   std::string name;  // the file's name without its extension
   // Every key with its value, in one fixed order: the same text is the same training. `task.kind` stands in
-  // it only if it is not "kick", `learner.time_limit` only if it is true: configurations are known by their text's
-  // hash, and older ones did not have those keys.
+  // it only if it is not "kick", `learner.time_limit` only if it is true, `learner.kind`, [rollout] and [randomise] only
+  // if the learner is not "dqn": configurations are known by their text's hash, and older ones did not have those keys.
   std::string text;
   RunConfig run;
   std::vector<TaskConfig> environments;  // played in turn, episode by episode; the first one validates
   Shape shape;
   LearnerConfig learner;
+  RolloutConfig rollout = {};
   OptimiserConfig optimiser;
   ExplorationConfig exploration;
 };

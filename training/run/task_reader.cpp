@@ -66,6 +66,29 @@ void read_kick(const TomlReader& reader, TaskConfig& task) {
   reader.read<bool>("reward.after_contact", task.goes_on, {{"end", false}, {"go on", true}});
 }
 
+// Two numbers, the lower one first.
+Range read_range(const TomlReader& reader, const std::string& key, double least, double greatest) {
+  const auto ends = reader.numbers(key, 2, least, greatest);
+  if (ends[0] > ends[1]) {
+    reader.fail(key, "must begin with the lower number");
+  }
+  return {.low = ends[0], .high = ends[1]};
+}
+
+RandomiseConfig read_randomise(const TomlReader& reader) {
+  RandomiseConfig randomise;
+  reader.read("randomise.share", randomise.share, 0.0, 1.0);
+  reader.read("randomise.ramp_episodes", randomise.ramp_episodes, 0, 10'000'000);
+  randomise.mass = read_range(reader, "randomise.mass", -0.9, 9.0);
+  randomise.torque = read_range(reader, "randomise.torque", -0.9, 9.0);
+  randomise.friction = read_range(reader, "randomise.friction", -0.95, 9.0);
+  randomise.ball_damping = read_range(reader, "randomise.ball_damping", -1.0, 9.0);
+  randomise.command_delay_ms = read_range(reader, "randomise.command_delay_ms", 0.0, sil::decision_period_ms);
+  randomise.vision_noise_mm = read_range(reader, "randomise.vision_noise_mm", 0.0, 100.0);
+  randomise.vision_late_ms = read_range(reader, "randomise.vision_late_ms", 0.0, sil::decision_period_ms);
+  return randomise;
+}
+
 TaskConfig read_task(const TomlReader& reader) {
   TaskConfig task;
   reader.read<TaskKind>("task.kind", task.kind, {{"kick", TaskKind::kick}});
@@ -82,6 +105,7 @@ TaskConfig read_task(const TomlReader& reader) {
     task.actions.push_back({.left_m_s = pair[0], .right_m_s = pair[1]});
   }
   read_kick(reader, task);
+  task.randomise = read_randomise(reader);
   return task;
 }
 

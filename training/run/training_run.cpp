@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -40,32 +41,55 @@ Training::Training(const Config& config, std::uint64_t seed)
     : config_(config),
       seed_(seed),
       environments_(make_environments(config)),
-      learner_(setup_of(config), seed) {
+      learner_(make_learner(config, seed)) {
   state_.recent_rewards.reserve(moving_average_span);
+  rows_.reserve(1);
 }
 
-CurveRow Training::play_episode() {
+std::span<const CurveRow> Training::play_round() {
+  rows_.clear();
+  if (auto* const dqn = std::get_if<Learner>(&learner_)) {
+    add_row(play_episode(*dqn));
+  } else {
+    const int count = std::min(config_.rollout.round_episodes, config_.run.episodes - state_.episodes);
+    for (const EpisodeRow& episode : std::get<RolloutLearner>(learner_).play_round(state_.episodes, count)) {
+      add_row(episode);
+    }
+  }
+  return rows_;
+}
+
+EpisodeRow Training::play_episode(Learner& learner) {
   const std::uint64_t number = first_training_episode + static_cast<std::uint64_t>(state_.episodes);
-  CurveRow row;
-  row.episode = std::visit(
+  return std::visit(
       [&](auto& env) {
         env.reset(seed_, number);
-        return learner_.play(env, state_.episodes);
+        return learner.play(env, state_.episodes);
       },
       environments_[number % environments_.size()]);
+}
+
+void Training::add_row(const EpisodeRow& episode) {
   ++state_.episodes;
   std::vector<double>& recent = state_.recent_rewards;
   if (recent.size() == moving_average_span) {
     recent.erase(recent.begin());
   }
-  recent.push_back(row.episode.reward);
-  row.moving_average =
-      std::accumulate(recent.begin(), recent.end(), 0.0) / static_cast<double>(recent.size());
-  return row;
+  recent.push_back(episode.reward);
+  const double sum = std::accumulate(recent.begin(), recent.end(), 0.0);
+  rows_.push_back({.episode = episode, .moving_average = sum / static_cast<double>(recent.size())});
+}
+
+std::int64_t Training::decisions() const {
+  return std::visit([](const auto& learner) { return learner.state().decisions; }, learner_);
+}
+
+std::int64_t Training::gradient_steps() const {
+  return std::visit([](const auto& learner) { return learner.state().gradient_steps; }, learner_);
 }
 
 void Training::begin_from(const Parameters& parameters) {
-  learner_.begin_from(parameters);
+  std::visit([&](auto& learner) { learner.begin_from(parameters); }, learner_);
   state_.history = fmt::format("begun from the network {}", model_identity(parameters));
 }
 
@@ -90,13 +114,13 @@ double validation_mean(const Training& training, const Parameters& parameters) {
 }
 
 Model model_of(const Training& training) {
-  const Parameters parameters = training.learner().result();
+  const Parameters parameters = training.result();
   return {.parameters = parameters, .metadata = metadata_of(training, parameters, training.episodes())};
 }
 
 Model best_model_of(const Training& training) {
   const RunState& state = training.state();
-  Parameters parameters = training.learner().result();
+  Parameters parameters = training.result();
   parameters.values = state.best_values;
   Model model{.parameters = parameters, .metadata = metadata_of(training, parameters, state.best_episodes)};
   model.metadata["mean_reward"] = fmt::format("{:.3f}", state.best_mean);

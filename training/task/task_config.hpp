@@ -43,6 +43,20 @@ struct SetPoint {
 // The paper's plant: a forward, whose servos may draw this torque a wheel and reach this speed.
 inline constexpr sil::RobotSpec forward_spec = sil::robot_spec(sil::Role::forward);
 
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// What a learner from own rollouts practises on beside the nominal robot; [randomise] in TOML. Fractions are of the
+// nominal value: mass -0.3 is 30 % less.
+struct RandomiseConfig {
+  double share = 0.0;     // of the episodes; the others are nominal
+  int ramp_episodes = 0;  // the ranges grow from nothing to all of themselves in so many
+  Range mass, torque, friction, ball_damping;
+  Range command_delay_ms, vision_noise_mm, vision_late_ms;
+};
+
 struct TaskConfig {
   TaskKind kind = TaskKind::kick;
   Physics physics = Physics::planar;
@@ -58,6 +72,7 @@ struct TaskConfig {
   // What a kick pays, and whether the learner's episode goes on after the contact.
   sil::KickRules rules = {};
   bool goes_on = false;
+  RandomiseConfig randomise = {};
 };
 
 }  // namespace striker::training

@@ -38,12 +38,12 @@ TEST(Allocation, EpisodesTakeNone) {
   config.optimiser.averaging = 0.9;
   Training training(config, 1);
   for (int i = 0; i < 50; ++i) {
-    training.play_episode();
+    (void)training.play_round();
   }
   const std::size_t before = allocations;
   EXPECT_GT(before, 0U);
   while (!training.done()) {
-    training.play_episode();
+    (void)training.play_round();
   }
   EXPECT_EQ(allocations, before);
 }

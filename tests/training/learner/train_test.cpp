@@ -13,7 +13,7 @@ namespace {
 Parameters learnt(const Config& config, std::uint64_t seed) {
   Training training(config, seed);
   play_all(training);
-  return training.learner().result();
+  return training.result();
 }
 
 TEST(Train, IsAFunctionOfConfigurationAndSeed) {
@@ -21,15 +21,15 @@ TEST(Train, IsAFunctionOfConfigurationAndSeed) {
   Training first(config, 1);
   Training second(config, 1);
   for (int i = 0; i < config.run.episodes; ++i) {
-    const CurveRow a = first.play_episode();
-    const CurveRow b = second.play_episode();
+    const CurveRow a = first.play_round().front();
+    const CurveRow b = second.play_round().front();
     EXPECT_EQ(a.episode.reward, b.episode.reward);
     EXPECT_EQ(a.episode.loss, b.episode.loss);
     EXPECT_EQ(a.episode.q, b.episode.q);
   }
-  EXPECT_GT(first.learner().state().gradient_steps, 500);
-  EXPECT_EQ(first.learner().result(), second.learner().result());
-  EXPECT_FALSE(first.learner().result() == learnt(config, 2));
+  EXPECT_GT(first.gradient_steps(), 500);
+  EXPECT_EQ(first.result(), second.result());
+  EXPECT_FALSE(first.result() == learnt(config, 2));
 }
 
 // Every option reaches the learner: switched alone, it changes what is learnt.
@@ -117,7 +117,7 @@ TEST(Train, PlaysItsOwnEpisodesUpToTheContact) {
     GreedyRule greedy(parameters);
     const auto played = [&](std::uint64_t episode) { return play(env, seed, episode, greedy); };
     for (std::uint64_t i = 0; !training.done(); ++i) {
-      const EpisodeRow row = training.play_episode().episode;
+      const EpisodeRow row = training.play_round().front().episode;
       const sil::KickOutcome outcome = played(first_training_episode + i);
       ASSERT_EQ(row.success, outcome.contact);
       ASSERT_EQ(row.reward, outcome.reward);

@@ -70,8 +70,8 @@ void RunDirectory::begin(Training& training, Start start) {
     resume(training);
   }
   curve_.reserve(training.config().run.episodes);
-  decisions_ = training.learner().state().decisions;
-  gradient_steps_ = training.learner().state().gradient_steps;
+  decisions_ = training.decisions();
+  gradient_steps_ = training.gradient_steps();
 }
 
 void RunDirectory::resume(Training& training) {
@@ -96,15 +96,19 @@ void RunDirectory::resume(Training& training) {
   }
 }
 
-void RunDirectory::add(const CurveRow& row, const Training& training) {
-  curve_.add(curve_line(row));
-  if (training.episodes() % speed_period == 0) {
+void RunDirectory::add(std::span<const CurveRow> rows, const Training& training) {
+  bool due = false;
+  for (const CurveRow& row : rows) {
+    curve_.add(curve_line(row));
+    due = due || (row.episode.episode + 1) % speed_period == 0;
+  }
+  if (due) {
     add_speed(training);
   }
 }
 
 void RunDirectory::evaluate(Training& training) {
-  const Parameters parameters = training.learner().result();
+  const Parameters parameters = training.result();
   const double mean = validation_mean(training, parameters);
   const bool best = training.state().best_episodes == 0 || mean > training.state().best_mean;
   evaluations_.add(fmt::format("{},{:.6f},{}\n", training.episodes(), mean, best ? 1 : 0));
@@ -155,10 +159,9 @@ void RunDirectory::write_tables(const Training& training) {
 
 void RunDirectory::add_speed(const Training& training) {
   const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-  const LearnerState& learner = training.learner().state();
   speed_.add(fmt::format("{},{:.3f},{:.0f},{:.0f}\n", training.episodes(), elapsed_s,
-                         static_cast<double>(learner.decisions - decisions_) / elapsed_s,
-                         static_cast<double>(learner.gradient_steps - gradient_steps_) / elapsed_s));
+                         static_cast<double>(training.decisions() - decisions_) / elapsed_s,
+                         static_cast<double>(training.gradient_steps() - gradient_steps_) / elapsed_s));
 }
 
 }  // namespace striker::training

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,8 @@ class RunDirectory {
   // `start` is fresh, or there is nothing to resume, or a file is damaged.
   void begin(Training& training, Start start);
 
-  void add(const CurveRow& row, const Training& training);
+  // A round's rows.
+  void add(std::span<const CurveRow> rows, const Training& training);
 
   // A greedy evaluation; the best one's network is kept.
   void evaluate(Training& training);

@@ -3,29 +3,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 #include "firmware/host/files.hpp"
 
 namespace striker::training {
 
 namespace {
 
-bool due(int episodes, int period) {
-  return period > 0 && episodes % period == 0;
+// Of what is done every `period` episodes: is it, among these rows?
+bool due(std::span<const CurveRow> rows, int period) {
+  return period > 0 && std::any_of(rows.begin(), rows.end(), [period](const CurveRow& row) {
+           return (row.episode.episode + 1) % period == 0;
+         });
 }
 
-// Up to the last episode, or to where `progress` ends it.
+// Up to the last episode, or to the end of the round in which `progress` ends it.
 void play_all(Training& training, RunDirectory& files, const TrainingProgress& progress,
               TrainingResult& result) {
   const RunConfig& run = training.config().run;
   while (!training.done() && !result.interrupted) {
-    const CurveRow row = training.play_episode();
-    result.moving_average = row.moving_average;
-    files.add(row, training);
-    if (run.validation_episodes > 0 && due(training.episodes(), run.evaluation_period)) {
+    const std::span<const CurveRow> rows = training.play_round();
+    result.moving_average = rows.back().moving_average;
+    files.add(rows, training);
+    if (run.validation_episodes > 0 && due(rows, run.evaluation_period)) {
       files.evaluate(training);
     }
-    result.interrupted = !progress(row) && !training.done();
-    if (!result.interrupted && !training.done() && due(training.episodes(), run.checkpoint_period)) {
+    const bool go_on = std::all_of(rows.begin(), rows.end(), progress);
+    result.interrupted = !go_on && !training.done();
+    if (!result.interrupted && !training.done() && due(rows, run.checkpoint_period)) {
       files.save(training);
     }
   }
@@ -40,8 +47,8 @@ void finish(const Training& training, RunDirectory& files, TrainingResult& resul
   }
   files.finish(training, model);
   result.episodes = training.episodes();
-  result.decisions = training.learner().state().decisions;
-  result.gradient_steps = training.learner().state().gradient_steps;
+  result.decisions = training.decisions();
+  result.gradient_steps = training.gradient_steps();
   if (training.state().best_episodes > 0) {
     result.best_mean_reward = training.state().best_mean;
   }

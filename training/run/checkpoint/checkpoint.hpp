@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A training run at the end of an episode, as a file: to resume from, to the same bits.
 //
-// It is safetensors like a model: the networks, Adam's moments and the replay buffer as tensors; counters,
+// It is safetensors like a model: the networks, Adam's moments and the replay buffer or the labels as tensors; counters,
 // generators and the rest of the run's state as text. Numbers in text are hexadecimal floats, exact.
 #pragma once
 
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "training/learner/dqn.hpp"
 #include "training/run/config.hpp"
+#include "training/run/learners.hpp"
 
 namespace striker::training {
 
@@ -29,11 +29,11 @@ struct RunState {
 };
 
 void save_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
-                     const Learner& learner, const RunState& run);
+                     const AnyLearner& learner, const RunState& run);
 
 // Throws std::runtime_error, naming the file, for one that is damaged, of another seed, or of a configuration
 // that differs in a key that may not change (config_changes.hpp). What did change is noted in the history.
 RunState load_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
-                         Learner& learner);
+                         AnyLearner& learner);
 
 }  // namespace striker::training

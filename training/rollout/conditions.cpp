@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "training/rollout/conditions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "training/ceiling/line_play.hpp"
+
+namespace striker::training {
+
+namespace {
+
+double drawn(const Range& range, double strength, sil::Random& random) {
+  return strength * random.uniform(range.low, range.high);
+}
+
+// Of 0 to `range.high` in whole units, each as likely.
+int drawn_whole(const Range& range, double unit, double strength, sil::Random& random) {
+  const double low = std::round(range.low / unit);
+  const double high = std::round(range.high / unit);
+  const double count = high - low + 1.0;
+  const double value = low + std::min(std::floor(count * random.uniform()), high - low);
+  return static_cast<int>(std::lround(strength * value));
+}
+
+constexpr double frame_ms = sil::decision_period_ms;
+
+}  // namespace
+
+Conditions draw_conditions(const RandomiseConfig& ranges, double strength, sil::Random& random) {
+  Conditions conditions;
+  conditions.mass_scale = 1.0 + drawn(ranges.mass, strength, random);
+  conditions.torque_scale = 1.0 + drawn(ranges.torque, strength, random);
+  conditions.friction_scale = 1.0 + drawn(ranges.friction, strength, random);
+  conditions.ball_damping_scale = 1.0 + drawn(ranges.ball_damping, strength, random);
+  conditions.command_delay_steps = drawn_whole(ranges.command_delay_ms, physics_step_ms, strength, random);
+  conditions.vision_noise_m = 0.001 * drawn(ranges.vision_noise_mm, strength, random);
+  conditions.vision_late_frames = drawn_whole(ranges.vision_late_ms, frame_ms, strength, random);
+  return conditions;
+}
+
+// As sil::straight_speed_m_s: two wheels' forces, each limited by torque and by grip, on the mass and the spin.
+double gain_limit_m_s(const Conditions& conditions) {
+  const double torque_N = conditions.torque_scale * forward_spec.max_wheel_torque_Nm / sil::wheel_radius_m;
+  const double grip_N = conditions.friction_scale * conditions.mass_scale * sil::planar_grip_N;
+  return physics_step_s * 2.0 * std::min(torque_N, grip_N) / (conditions.mass_scale * sil::planar_mass_kg);
+}
+
+double ball_kept(const Conditions& conditions) {
+  // The logarithm's rounding must not move the nominal ball.
+  return conditions.ball_damping_scale == 1.0
+             ? sil::kept_in_10_ms
+             : std::exp(-conditions.ball_damping_scale * sil::damping_per_s * physics_step_s);
+}
+
+}  // namespace striker::training

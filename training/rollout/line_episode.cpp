@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "training/rollout/line_episode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "sil/world/random_streams.hpp"
+
+namespace striker::training {
+
+namespace {
+
+constexpr std::array moving_elements = {Element::ball_x, Element::robot_speed};
+
+bool moves(Element element) {
+  return std::find(moving_elements.begin(), moving_elements.end(), element) != moving_elements.end();
+}
+
+// The robot's next physics step (sil::straight_speed_m_s).
+void advance(LineState& robot, double set_point_m_s, double gain_limit_m_s) {
+  const double moved_m_s =
+      robot.speed_m_s + std::clamp(set_point_m_s - robot.speed_m_s, -gain_limit_m_s, gain_limit_m_s);
+  robot.position_m += physics_step_s * moved_m_s;
+  robot.speed_m_s = sil::kept_in_10_ms * moved_m_s;
+}
+
+// What the ball's place tells of its velocity, one vision frame after it was at `last_m`.
+sil::Vec2 estimated_velocity_m_s(sil::Vec2 now_m, sil::Vec2 last_m) {
+  return {(now_m.x - last_m.x) / sil::decision_period_s, (now_m.y - last_m.y) / sil::decision_period_s};
+}
+
+double normal(sil::Random& random) {  // Box and Muller 1958
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+  return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
+}
+
+// What the camera sees of ball and robot, while the robot stands still: a frame a decision, from some before the first
+// decision on.
+constexpr int frames_before = 2;
+struct Picture {
+  sil::Vec2 ball_m, robot_m;
+  sil::Vec2 true_velocity_m_s;
+};
+using Pictures = std::array<Picture, sil::kick_decisions + frames_before>;
+
+Pictures pictures_of(const sil::KickStart& start, double kept, double noise_m, sil::Random& random) {
+  Pictures pictures;
+  sil::BallState ball = start.ball;
+  for (int frame = 0; frame < static_cast<int>(pictures.size()); ++frame) {
+    const int ahead = frames_before - frame;
+    const sil::BallState seen = ahead > 0 ? sil::ball_before(start, ahead * sil::decision_period_s) : ball;
+    Picture& picture = pictures[static_cast<std::size_t>(frame)];
+    picture = {.ball_m = seen.position_m, .robot_m = {}, .true_velocity_m_s = seen.velocity_m_s};
+    if (noise_m > 0.0) {
+      picture.robot_m = {noise_m * normal(random), noise_m * normal(random)};
+      picture.ball_m.x += noise_m * normal(random);
+      picture.ball_m.y += noise_m * normal(random);
+    }
+    for (int i = 0; ahead <= 0 && i < steps_per_decision; ++i) {
+      auto& [position, velocity] = ball;
+      position = {position.x + physics_step_s * velocity.x, position.y + physics_step_s * velocity.y};
+      velocity = {kept * velocity.x, kept * velocity.y};
+    }
+  }
+  return pictures;
+}
+
+}  // namespace
+
+std::string LineKick::unfit(const TaskConfig& task) {
+  if (task.kind != TaskKind::kick || task.physics != Physics::planar) {
+    return "task.world: must be \"fast\"";
+  }
+  if (task.pose != sil::PoseMode::origin) {
+    return "task.pose: must be \"origin\": the RCS state is the same anywhere";
+  }
+  if (task.equations != Equations::corrected) {
+    return "task.equations: must be \"corrected\"";
+  }
+  if (task.rules.every_contact) {
+    return "reward.contacts: must be \"first\"";
+  }
+  if (task.goes_on) {
+    return "reward.after_contact: must be \"end\"";
+  }
+  const auto controllers = [](const StateInput& input) {
+    return facts_of(input.element).raw_per_value != 0.0;
+  };
+  if (!std::all_of(task.inputs.begin(), task.inputs.end(), controllers)) {
+    return "task.inputs: must be elements that the controller has";
+  }
+  const auto straight = [](const SetPoint& action) { return action.left_m_s == action.right_m_s; };
+  if (!std::all_of(task.actions.begin(), task.actions.end(), straight)) {
+    return "task.actions: both wheels must be set alike: plays are on a line";
+  }
+  return "";
+}
+
+LineKick::LineKick(const TaskConfig& task) : task_(task) {
+  if (const std::string why = unfit(task); !why.empty()) {
+    throw std::invalid_argument("LineKick: " + why);
+  }
+  for (const SetPoint& action : task.actions) {
+    set_points_m_s_.push_back(action.left_m_s);
+  }
+  for (std::size_t i = 0; i < task.inputs.size(); ++i) {
+    if (moves(task.inputs[i].element)) {
+      moving_.push_back({.row = static_cast<Eigen::Index>(i), .input = task.inputs[i]});
+    }
+  }
+}
+
+LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number, const Conditions& conditions) const {
+  const sil::KickStart start = sil::draw_kick(seed, number, task_.pose, task_.rules);
+  LineEpisode episode{.track = ball_track(start.ball, task_steps, ball_kept(conditions)),
+                      .gain_limit_m_s = gain_limit_m_s(conditions),
+                      .command_delay_steps = conditions.command_delay_steps,
+                      .vision_late_frames = conditions.vision_late_frames,
+                      .features = {}};
+  episode.features.resize(static_cast<Eigen::Index>(task_.inputs.size()), sil::kick_decisions);
+  sil::Random random(seed, number, sil::random_stream::vision_noise);
+  const Pictures pictures = pictures_of(start, ball_kept(conditions), conditions.vision_noise_m, random);
+  // A camera that errs or lags knows no true velocity.
+  const bool estimated = task_.velocities == Velocities::estimated || conditions.vision_noise_m > 0.0 ||
+                         conditions.vision_late_frames > 0;
+  Features features(task_.inputs.size());
+  History history;
+  for (int decision = 0; decision < sil::kick_decisions; ++decision) {
+    const auto frame = static_cast<std::size_t>(decision + frames_before - conditions.vision_late_frames);
+    const Picture& seen = pictures[frame];
+    DecisionState state;
+    state.decisions_left = sil::kick_decisions - decision;
+    state.field.robot = {.x_m = seen.robot_m.x, .y_m = seen.robot_m.y, .heading_rad = 0.0};
+    state.field.ball = {.position_m = seen.ball_m,
+                        .velocity_m_s = estimated
+                                            ? estimated_velocity_m_s(seen.ball_m, pictures[frame - 1].ball_m)
+                                            : seen.true_velocity_m_s};
+    state.rcs = rcs_state(state.field, task_.equations);
+    decision == 0 ? history.begin(state) : history.add(state);
+    const bool mirror = task_.one_sided && state.rcs.ball_y_m < 0.0;
+    write_features(task_.inputs, history, mirror, random, features);
+    episode.features.col(decision) = features;
+    episode.seen_ball_x_m[static_cast<std::size_t>(decision)] = state.rcs.ball_x_m;
+  }
+  return episode;
+}
+
+void LineKick::look(const LineEpisode& episode, const LineRobot& robot,
+                    Eigen::Ref<Eigen::VectorXf> features) const {
+  features = episode.features.col(robot.decision);
+  const auto then = [&robot](int ago) -> const LineState& {
+    return ago == 0 ? robot.now : robot.before[static_cast<std::size_t>(ago - 1)];
+  };
+  for (const auto& [row, input] : moving_) {
+    const auto [element, ago] = input;
+    double value = then(ago).speed_m_s;  // the wheels tell it at once
+    if (element == Element::ball_x) {
+      value = episode.seen_ball_x_m[static_cast<std::size_t>(std::max(robot.decision - ago, 0))] -
+              then(ago + episode.vision_late_frames).position_m;
+    }
+    features[row] = static_cast<float>(value / facts_of(element).unit);
+  }
+}
+
+void LineKick::step(const LineEpisode& episode, LineRobot& robot, int action) const {
+  std::shift_right(robot.before.begin(), robot.before.end(), 1);
+  robot.before.front() = robot.now;
+  const double new_set_point_m_s = set_point_m_s(action);
+  const int first = robot.decision * steps_per_decision;
+  for (int i = 0; i < steps_per_decision; ++i) {
+    if (episode.track.depth_m(first + i, robot.now.position_m) >= 0.0) {
+      robot.over = robot.contact = true;
+      robot.reward = contact_reward(episode.track, first + i, robot.now);
+      return;
+    }
+    advance(robot.now, i < episode.command_delay_steps ? robot.set_point_m_s : new_set_point_m_s,
+            episode.gain_limit_m_s);
+  }
+  robot.set_point_m_s = new_set_point_m_s;
+  ++robot.decision;
+  if (robot.decision * steps_per_decision >= episode.track.end) {
+    robot.over = true;
+    robot.reward = no_contact_reward();
+  }
+}
+
+double LineKick::contact_reward(const BallTrack& track, int step, const LineState& robot) const {
+  const sil::KickRules& rules = task_.rules;
+  const auto n = static_cast<std::size_t>(step);
+  const double ahead_m = track.x_m[n] - robot.position_m;
+  const double speed_m_s = rules.signed_speed ? robot.speed_m_s : std::abs(robot.speed_m_s);
+  return rules.waiting_reward * (step / steps_per_decision) +
+         rules.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) +
+         rules.speed_reward_s_m * speed_m_s;
+}
+
+double LineKick::most_reward(int decision) const {
+  const sil::KickRules& rules = task_.rules;
+  return rules.waiting_reward * decision + std::abs(rules.angle_reward) +
+         std::abs(rules.speed_reward_s_m) * top_speed_m_s;
+}
+
+}  // namespace striker::training
