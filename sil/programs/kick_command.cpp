@@ -129,7 +129,8 @@ class KickSession {
                    .seed = options.seed,
                    .first_episode = options.first,
                    .episodes = options.episodes,
-                   .place = varied({.robot = spec_of(robot_)}, variation_),
+                   .place = {.robot = varied(spec_of(robot_), variation_),
+                             .ball_kept_after_1_s = ball_kept_after_1_s(variation_)},
                    .vision_latency_ticks = latency_ms(),
                    .needs_controller = options.real_time},
                   seat_, observers) {}

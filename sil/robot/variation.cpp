@@ -119,14 +119,17 @@ Variation variation_of(const std::string& text) {
   return variation;
 }
 
-KickPlace varied(const KickPlace& described, const Variation& variation) {
-  KickPlace place = described;
-  place.robot.body_mass_kg *= variation.mass;
-  place.robot.wheel_mass_kg *= variation.mass;
-  place.robot.tyre_friction *= variation.friction;
-  place.robot.max_wheel_torque_Nm *= variation.torque;
-  place.ball_kept_after_1_s = std::pow(described.ball_kept_after_1_s, variation.ball_damping);
-  return place;
+RobotSpec varied(const RobotSpec& described, const Variation& variation) {
+  RobotSpec robot = described;
+  robot.body_mass_kg *= variation.mass;
+  robot.wheel_mass_kg *= variation.mass;
+  robot.tyre_friction *= variation.friction;
+  robot.max_wheel_torque_Nm *= variation.torque;
+  return robot;
+}
+
+double ball_kept_after_1_s(const Variation& variation) {
+  return std::pow(kept_after_1_s, variation.ball_damping);
 }
 
 std::vector<std::unique_ptr<Plant>> make_plants(PlantKind kind, const RobotSpec& described,

@@ -13,7 +13,7 @@
 
 #include "sil/robot/camera.hpp"
 #include "sil/robot/plant.hpp"
-#include "sil/task/kick_task.hpp"
+#include "sil/world/robot_specs.hpp"
 
 namespace striker::sil {
 
@@ -35,7 +35,10 @@ struct Variation {
 // From "mass=0.9,torque=1.1". Throws std::runtime_error that names what is wrong and what there is.
 [[nodiscard]] Variation variation_of(const std::string& text);
 
-[[nodiscard]] KickPlace varied(const KickPlace& described, const Variation& variation);
+[[nodiscard]] RobotSpec varied(const RobotSpec& described, const Variation& variation);
+
+// Of its speed, what damping leaves AI Soccer's ball.
+[[nodiscard]] double ball_kept_after_1_s(const Variation& variation);
 
 // The described robot's motors, and around them what varies them: each holds the one before it, the last is to be used.
 [[nodiscard]] std::vector<std::unique_ptr<Plant>> make_plants(PlantKind kind, const RobotSpec& described,

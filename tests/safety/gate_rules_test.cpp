@@ -2,6 +2,7 @@
 // The command gate by itself, at each of its limits: a node behind it sends what it likes.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 #include "firmware/can/drives/striker_drives.hpp"
@@ -65,18 +66,6 @@ class GateRules : public testing::Test {
   void confirm(std::int32_t mode) {
     challenge(mode, 77);
     order(mode, 77);
-  }
-  void expect_belief_after(bool& kind, std::uint32_t frames) {
-    kind = false;
-    feed(20);
-    kind = true;
-    feed(frames - 1);
-    confirm(arm);
-    EXPECT_FALSE(moves());
-    confirm(clear);
-    feed();
-    confirm(arm);
-    EXPECT_TRUE(moves());
   }
   void drive() {
     feed(13);
@@ -165,15 +154,22 @@ TEST_F(GateRules, AChallengeLastsItsTime) {
 }
 
 // A dozen steps of the wheel states' counter, three of a picture's: no fewer, and no more.
-TEST_F(GateRules, WheelStatesAreBelievedAfterTwelveSteps) {
-  expect_belief_after(sends_wheels, 13);
+class GateBelief : public GateRules, public testing::WithParamInterface<int> {};
+TEST_P(GateBelief, NeedsItsStreak) {
+  bool& sends =
+      *std::array{&sends_wheels, &sends_poses, &sends_balls}.at(static_cast<std::size_t>(GetParam()));
+  sends = false;
+  feed(20);
+  sends = true;
+  feed(GetParam() == 0 ? 12 : 3);
+  confirm(arm);
+  EXPECT_FALSE(moves());
+  confirm(clear);
+  feed();
+  confirm(arm);
+  EXPECT_TRUE(moves());
 }
-TEST_F(GateRules, PosesAreBelievedAfterThreeSteps) {
-  expect_belief_after(sends_poses, 4);
-}
-TEST_F(GateRules, BallsAreBelievedAfterThreeSteps) {
-  expect_belief_after(sends_balls, 4);
-}
+INSTANTIATE_TEST_SUITE_P(WheelsPosesBalls, GateBelief, testing::Values(0, 1, 2));
 
 TEST_F(GateRules, WhatMovesHasWheelStatesWithinTheirTime) {
   drive();

@@ -28,7 +28,8 @@ class KickRig {
       const KickPlan& plan, const std::vector<Observer*>& observers = {},
       const std::function<bool()>& stop = [] { return false; }) {
     KickPlan varied_plan = plan;
-    varied_plan.place = varied(plan.place, variation_);
+    varied_plan.place = {.robot = varied(plan.place.robot, variation_),
+                         .ball_kept_after_1_s = ball_kept_after_1_s(variation_)};
     varied_plan.vision_latency_ticks = variation_.vision_latency_ms.value_or(0);
     KickScenario scenario(varied_plan, seat_, observers);
     scenario.run(stop);
