@@ -39,7 +39,7 @@ TEST(Arming, EveryTimeBeginsAnew) {
       rig.tick();
     }
     rig.mode(Mode::arm);
-    for (int tick = 0; tick < 333; ++tick) {
+    for (int tick = 0; tick < 1500; ++tick) {
       rig.tick();
       run.push_back(rig.command);
     }

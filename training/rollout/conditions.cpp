@@ -41,9 +41,11 @@ Conditions draw_conditions(const RandomiseConfig& ranges, double strength, sil::
 
 // As sil::straight_speed_m_s: two wheels' forces, each limited by torque and by grip, on the mass and the spin.
 double gain_limit_m_s(const Conditions& conditions) {
-  const double torque_N = conditions.torque_scale * forward_spec.max_wheel_torque_Nm / sil::wheel_radius_m;
-  const double grip_N = conditions.friction_scale * conditions.mass_scale * sil::planar_grip_N;
-  return physics_step_s * 2.0 * std::min(torque_N, grip_N) / (conditions.mass_scale * sil::planar_mass_kg);
+  const double torque_N =
+      conditions.torque_scale * forward_spec.max_wheel_torque_Nm / sil::planar_forward.wheel_radius_m;
+  const double grip_N = conditions.friction_scale * conditions.mass_scale * sil::planar_forward.grip_N;
+  return physics_step_s * 2.0 * std::min(torque_N, grip_N) /
+         (conditions.mass_scale * sil::planar_forward.mass_kg);
 }
 
 double ball_kept(const Conditions& conditions) {
