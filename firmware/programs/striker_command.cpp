@@ -52,10 +52,10 @@ class Controller {
   [[nodiscard]] bool is_stopped() const {
     return (static_cast<core::Faults>(safety_.faults) & core::set_of(core::Fault::emergency_stop)) != 0;
   }
-  // How long the stop still holds at most: what pressed it before this tool listened is not known.
-  [[nodiscard]] milliseconds stop_holds_for() const {
-    const auto passed = std::chrono::duration_cast<milliseconds>(Clock::now() - last_stop_);
-    return is_stopped() ? std::max(stop_hold - passed, milliseconds(0)) : milliseconds(0);
+  // How long ago a stop's last frame came; before this tool listened none is known of.
+  [[nodiscard]] std::optional<milliseconds> last_stop_ago() const {
+    return last_stop_ ? std::optional(std::chrono::duration_cast<milliseconds>(Clock::now() - *last_stop_))
+                      : std::nullopt;
   }
   // What it asked back, once.
   std::optional<can::Challenge> take_challenge() { return std::exchange(challenge_, std::nullopt); }
@@ -84,7 +84,7 @@ class Controller {
   can::Status status_;
   can::Safety safety_;
   std::optional<can::Challenge> challenge_;
-  Clock::time_point last_stop_ = Clock::now();  // that was heard, or when this tool began to listen
+  std::optional<Clock::time_point> last_stop_;  // that was heard
   int believed_ = 0;                            // statuses in a row
 };
 
@@ -99,15 +99,20 @@ std::string describe(const Controller& controller) {
       status.wrong_counter, status.out_of_range);
 }
 
-// Why a clear is refused that nothing but time helps.
-std::string hold_text(const std::string& command, const Controller& controller) {
-  const milliseconds rest = controller.stop_holds_for();
-  if (command != "clear" || rest == milliseconds(0)) {
+// Why a clear after a stop may need no more than time. The controller does not tell how long it still holds.
+std::string hold_text(const Controller& controller, milliseconds listened) {
+  if (!controller.is_stopped()) {
     return {};
   }
+  if (const auto ago = controller.last_stop_ago()) {
+    return fmt::format(
+        "; stop frames still come, the last one {} ms ago: a stop holds for {} ms after it; end them, then "
+        "clear again",
+        ago->count(), stop_hold.count());
+  }
   return fmt::format(
-      "; the stop holds for {} ms after its last frame, another {} ms at most: clear again then",
-      stop_hold.count(), rest.count());
+      "; a stop holds for {} ms after its last frame, this one for another {} ms at most: clear again",
+      stop_hold.count(), std::max(stop_hold - listened, milliseconds(0)).count());
 }
 
 bool has_effect(const std::string& command, const Controller& controller) {
@@ -198,7 +203,9 @@ class Tool {
 int run(const std::string& interface, const std::string& command, milliseconds timeout, bool hold) {
   host::CanSocket socket(interface, tool_receives);
   Tool tool(socket, command);
+  const auto begin = Clock::now();
   const bool done = tool.run(timeout);
+  const auto listened = std::chrono::duration_cast<milliseconds>(Clock::now() - begin);
   if (!tool.controller().heard()) {
     fmt::print(stderr,
                "striker-command: no fresh status on {} within {} ms: is striker-firmware running{}?\n",
@@ -207,7 +214,7 @@ int run(const std::string& interface, const std::string& command, milliseconds t
   }
   fmt::print(done ? stdout : stderr, "{}{}{}\n",
              done ? "" : "striker-command: " + command + " had no effect: ", describe(tool.controller()),
-             done ? "" : hold_text(command, tool.controller()));
+             done || command != "clear" ? "" : hold_text(tool.controller(), listened));
   if (done && hold) {
     fmt::print("renewed every second; Ctrl-C disarms\n");
     std::fflush(stdout);
