@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "training/ceiling/line_play.hpp"
+#include "training/line/line_play.hpp"
 
 namespace striker::training {
 

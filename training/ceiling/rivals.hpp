@@ -9,7 +9,7 @@
 #include <functional>
 #include <string_view>
 
-#include "training/ceiling/line_play.hpp"
+#include "training/line/line_play.hpp"
 #include "training/task/kick_environment.hpp"
 
 namespace striker::training {

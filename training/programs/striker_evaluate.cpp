@@ -13,9 +13,12 @@
 #include "firmware/host/progress.hpp"
 #include "firmware/host/version.hpp"
 #include "sil/task/kick_report.hpp"
+#include "sil/task/mean_estimate.hpp"
 #include "training/export/comparison/agreement.hpp"
 #include "training/export/comparison/optional_json.hpp"
+#include "training/line/line_episode.hpp"
 #include "training/model/model.hpp"
+#include "training/run/evaluation.hpp"
 #include "training/run/model_task.hpp"
 #include "training/task/kick_environment.hpp"
 
@@ -32,6 +35,7 @@ struct Options {
   std::string velocities = "true";
   std::string world = "full";
   std::filesystem::path config;
+  std::vector<std::string> conditions;
   std::filesystem::path decisions;
   std::filesystem::path json;
 };
@@ -65,6 +69,20 @@ int evaluate_play(const Options& options, const Model& model, TaskConfig task) {
     sil::write_json(run, options.json);
   }
   fmt::print("{}", sil::format_table(run, false));
+  return 0;
+}
+
+// A robot that is not the nominal one, on a line.
+int evaluate_conditions(const Options& options, const Model& model, TaskConfig task) {
+  task.velocities = options.velocities == "true" ? Velocities::exact : Velocities::estimated;
+  if (const std::string why = LineKick::unfit(task); !why.empty()) {
+    throw std::runtime_error("--condition: the model's task cannot be played on a line: " + why);
+  }
+  const std::vector<double> rewards = rewards_under(conditions_of(options.conditions), task, model.parameters,
+                                                    options.seed, options.episodes);
+  const sil::MeanEstimate mean = sil::mean_estimate(rewards);
+  fmt::print("{}: mean reward {:.3f} +- {:.3f} (95 %)\n", fmt::join(options.conditions, ", "), mean.mean,
+             1.96 * mean.standard_error);
   return 0;
 }
 
@@ -123,6 +141,13 @@ int main(int argc, char** argv) {
   app.add_option("--world", options.world, "full: wheel bodies (the reference); fast: the training's world")
       ->check(CLI::IsMember({"full", "fast"}))
       ->capture_default_str();
+  auto* condition =
+      app.add_option("--condition", options.conditions,
+                     "plays in the training's world with a robot that is not the nominal one: a key of\n"
+                     "[randomise] in paper.toml and a value, such as mass=-0.3 or vision_late_ms=50")
+          ->type_name("KEY=VALUE")
+          ->allow_extra_args(false)
+          ->needs(episodes);
   auto* decisions = striker::host::reads_file(
       app.add_option("--decisions", options.decisions, "CSV file of a controller's decisions"));
   striker::host::writes_file(app.add_option("--json", options.json, "write the figures to this file"));
@@ -133,6 +158,9 @@ int main(int argc, char** argv) {
     }
     const Model model = load_model(options.model, options.network);
     const TaskConfig task = task_of(model, options.config);
+    if (*condition) {
+      return evaluate_conditions(options, model, task);
+    }
     return *decisions ? evaluate_decisions(options, model, task) : evaluate_play(options, model, task);
   });
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "training/learner/network.hpp"
-#include "training/rollout/line_episode.hpp"
+#include "training/line/line_episode.hpp"
 
 namespace striker::training {
 

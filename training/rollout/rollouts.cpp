@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sil/world/random_streams.hpp"
-#include "training/rollout/planner.hpp"
+#include "training/line/planner.hpp"
 #include "training/task/episode_numbers.hpp"
 
 namespace striker::training {

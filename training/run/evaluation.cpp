@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "training/run/evaluation.hpp"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
 #include <variant>
 
+#include "sil/world/random_streams.hpp"
+#include "training/rollout/greedy_plays.hpp"
+#include "training/run/config.hpp"
 #include "training/task/environments.hpp"
 
 namespace striker::training {
@@ -20,6 +26,41 @@ double mean_reward(const TaskConfig& task, const Parameters& parameters, std::ui
       },
       environment);
   return sum / count;
+}
+
+std::vector<double> rewards_under(const Conditions& conditions, const TaskConfig& task,
+                                  const Parameters& parameters, std::uint64_t seed, int count) {
+  const LineKick kick(task);
+  std::vector<LineEpisode> episodes;
+  for (int i = 0; i < count; ++i) {
+    episodes.push_back(kick.draw(seed, static_cast<std::uint64_t>(i), conditions));
+  }
+  std::vector<LinePlay> plays;
+  for (const LineEpisode& episode : episodes) {
+    plays.push_back({.kick = &kick, .episode = &episode, .robot = {}});
+  }
+  GreedyPlays(parameters.shape()).finish(parameters, plays);
+  std::vector<double> rewards;
+  for (const LinePlay& play : plays) {
+    rewards.push_back(play.robot.reward);
+  }
+  return rewards;
+}
+
+Conditions conditions_of(const std::vector<std::string>& settings) {
+  std::vector<std::string> changes = {"learner.kind=\"rollout\""};
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    const std::string key = setting.substr(0, equals);
+    if (equals == std::string::npos || key == "share" || key == "ramp_episodes") {
+      throw std::runtime_error(fmt::format(
+          "--condition {}: give a range's key of [randomise] and one value, such as mass=-0.3", setting));
+    }
+    const std::string value = setting.substr(equals + 1);
+    changes.push_back(fmt::format("randomise.{0}=[{1}, {1}]", key, value));
+  }
+  sil::Random none(0, 0, sil::random_stream::conditions);
+  return draw_conditions(parse_config("", "--condition", changes).environments.front().randomise, 1.0, none);
 }
 
 }  // namespace striker::training

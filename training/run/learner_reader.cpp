@@ -5,7 +5,7 @@
 #include <string>
 
 #include "sil/task/kick_task.hpp"
-#include "training/rollout/line_episode.hpp"
+#include "training/line/line_episode.hpp"
 
 namespace striker::training {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "training/rollout/line_episode.hpp"
+#include "training/line/line_episode.hpp"
 
 #include <algorithm>
 #include <cmath>

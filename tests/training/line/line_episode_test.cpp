@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plays on a line against the environment itself: the same inputs, the same end, the same reward.
-#include "training/rollout/line_episode.hpp"
+#include "training/line/line_episode.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/training/fixtures.hpp"
 #include "training/ceiling/rivals.hpp"
-#include "training/rollout/planner.hpp"
+#include "training/line/planner.hpp"
 
 namespace striker::training {
 namespace {

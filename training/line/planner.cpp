@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "training/rollout/planner.hpp"
+#include "training/line/planner.hpp"
 
 #include <algorithm>
 #include <cmath>

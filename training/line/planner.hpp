@@ -4,7 +4,7 @@
 // about an episode instead of what is seen of it. It teaches a network before its own play is worth anything.
 #pragma once
 
-#include "training/rollout/line_episode.hpp"
+#include "training/line/line_episode.hpp"
 
 namespace striker::training {
 

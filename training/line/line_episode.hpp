@@ -12,7 +12,7 @@
 //   }
 //
 // The robot, the ball and the camera may be others than the nominal ones (conditions.hpp).
-// tests/training/rollout/line_episode_test.cpp holds the nominal play against KickEnvironment. A step takes about 20 ns.
+// tests/training/line/line_episode_test.cpp holds the nominal play against KickEnvironment. A step takes about 20 ns.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-#include "training/ceiling/line_play.hpp"
-#include "training/rollout/conditions.hpp"
+#include "training/line/line_play.hpp"
+#include "training/line/conditions.hpp"
 #include "training/task/task_config.hpp"
 
 namespace striker::training {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "training/ceiling/line_play.hpp"
+#include "training/line/line_play.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Robots and cameras that are not the nominal ones, against the fast world and against what is seen of the nominal ones.
-#include "training/rollout/conditions.hpp"
+#include "training/line/conditions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "sil/world/planar_world.hpp"
-#include "training/rollout/line_episode.hpp"
+#include "training/line/line_episode.hpp"
 
 namespace striker::training {
 namespace {

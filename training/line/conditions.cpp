@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "training/rollout/conditions.hpp"
+#include "training/line/conditions.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "training/ceiling/line_play.hpp"
+#include "training/line/line_play.hpp"
 
 namespace striker::training {
 
