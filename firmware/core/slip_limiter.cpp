@@ -22,7 +22,8 @@ std::int32_t SlipLimiter::limit(const RobotProfile& robot, std::int32_t measured
   const std::int32_t lead_mm_s = measured_mm_s - (reference_q6_ >> 6);
   const bool spins =
       (lead_mm_s > slip_mm_s && torque_mNm_ > 0) || (lead_mm_s < -slip_mm_s && torque_mNm_ < 0);
-  withheld_q8_ = spins ? std::min(withheld_q8_ + cut_q8, all_q8 - least_q8) : std::max(withheld_q8_ - 1, 0);
+  withheld_q8_ = spins ? std::min(withheld_q8_ + cut_q8, all_q8 - least_q8)
+                       : std::max<std::int32_t>(withheld_q8_ - 1, 0);
   return (robot.torque_limit_mNm * (all_q8 - withheld_q8_)) >> 8;
 }
 
