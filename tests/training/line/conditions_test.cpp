@@ -60,7 +60,7 @@ TEST(Conditions, AreTheWorldsWithOtherServos) {
     const Conditions weak{.mass_scale = 1.25, .torque_scale = 0.8, .command_delay_steps = delay};
     const double weak_reward = line_reward(number, weak, actions);
     ASSERT_NEAR(weak_reward, world_reward(number, 0.64 * nominal_Nm, delay, actions), 1e-9) << number;
-    const double grip_Nm = 0.1 * sil::planar_grip_N * sil::wheel_radius_m;
+    const double grip_Nm = 0.1 * sil::planar_forward.grip_N * sil::planar_forward.wheel_radius_m;
     ASSERT_LT(grip_Nm, nominal_Nm);
     ASSERT_NEAR(line_reward(number, {.friction_scale = 0.1}, actions),
                 world_reward(number, grip_Nm, 0, actions), 1e-9);
