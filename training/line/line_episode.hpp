@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-#include "training/line/line_play.hpp"
 #include "training/line/conditions.hpp"
+#include "training/line/line_play.hpp"
 #include "training/task/task_config.hpp"
 
 namespace striker::training {
