@@ -101,7 +101,7 @@ std::string HelpText::make_option(const CLI::Option* option, bool is_positional)
   if (option->get_required()) {
     notes.emplace_back("required");
   }
-  const std::string text = option->get_description();
+  const std::string& text = option->get_description();
   return line_of(left, notes.empty() ? text : fmt::format("{} ({})", text, fmt::join(notes, "; ")));
 }
 
