@@ -2,8 +2,8 @@
 // The policy that this build puts into the controller's programs and images.
 //
 // The build chooses it: STRIKER_POLICY_HEADER is the path of an exported header, as a string, and
-// STRIKER_POLICY_NAME the name of the policy in it, which other policies may have too: identities tell them apart. Code that is given its policy as a parameter
-// (Pilot<policy>, infer<policy>) does not need this header.
+// STRIKER_POLICY_NAME the name of the policy in it, which other policies may have too: identities tell them apart.
+// Code that is given its policy as a parameter (Pilot<policy>, infer<policy>) does not need this header.
 #pragma once
 
 #include STRIKER_POLICY_HEADER

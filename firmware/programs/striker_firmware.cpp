@@ -195,7 +195,8 @@ void print_granted(const Options& options, const Granted& granted) {
   if (!granted.complete) {
     fmt::print(
         stderr,
-        "striker-firmware: the kernel refused what stands above: timing is best effort; run as root or grant CAP_SYS_NICE and CAP_IPC_LOCK\n");
+        "striker-firmware: the kernel refused what stands above: timing is best effort; run as root or grant "
+        "CAP_SYS_NICE and CAP_IPC_LOCK\n");
   }
 }
 

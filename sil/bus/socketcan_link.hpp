@@ -7,8 +7,8 @@
 // for a new one, and is back in lockstep. A full queue gets the answer timeout to take a frame: without it the tick
 // could not be repeated.
 //
-// On its own clock nothing waits: a frame that the queue does not take is lost, as on any bus. An interface that goes is
-// looked for, for 10 s, and the world goes on meanwhile.
+// On its own clock nothing waits: a frame that the queue does not take is lost, as on any bus. An interface that goes
+// is looked for, for 10 s, and the world goes on meanwhile.
 #pragma once
 
 #include <chrono>

@@ -86,9 +86,10 @@ std::string bus_problem(const std::string& bus) {
 
 void define(CLI::App& kick, KickOptions& options) {
   kick.footer(
-      "Exit status: 0 all episodes were played with a controller; 2 wrong use, or no controller; 3 some were not driven "
-      "all along, and are marked; 4 an emergency stop ended the run; 5 the bus or a file failed; 130 interrupted. What "
-      "was finished is kept: in the files, or, after a kill, in LOG.part and JSON.episodes.jsonl.");
+      "Exit status: 0 all episodes were played with a controller; 2 wrong use, or no controller; 3 some were not "
+      "driven all along, and are marked; 4 an emergency stop ended the run; 5 the bus or a file failed; 130 "
+      "interrupted. What was finished is kept: in the files, or, after a kill, in LOG.part and "
+      "JSON.episodes.jsonl.");
   kick.add_option("--bus", options.bus, "inproc: the controller in this process; can:IFACE: over SocketCAN")
       ->check(bus_problem)
       ->capture_default_str();
