@@ -24,6 +24,8 @@ struct RobotDescription {
   std::int32_t top_rim_speed_mm_s;           // of each wheel
   std::int32_t camera_latency_ms = 0;        // from a picture to its frames: 0 to 50
   std::int32_t tyre_friction_percent = 300;  // Coulomb, between tyre and floor: 300 is a coefficient of 3.0
+
+  bool operator==(const RobotDescription&) const = default;
 };
 
 // The AI Soccer roles (AI World Cup test_world, branch master 37312a93).

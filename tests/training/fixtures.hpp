@@ -11,7 +11,9 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "training/model/model.hpp"
 #include "training/run/config.hpp"
@@ -50,6 +52,22 @@ inline std::string content_of(const std::filesystem::path& file) {
 
 inline void write_to(const std::filesystem::path& file, const std::string& content) {
   std::ofstream(file, std::ios::binary) << content;
+}
+
+// `read` refuses the file in one line that begins with its name and holds every one of the complaints.
+template <class Read>
+void expect_refused(const Read& read, const std::string& file, const std::vector<const char*>& complaints) {
+  try {
+    read();
+    FAIL() << "was read";
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find(file + ": "), 0U) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    for (const char* complaint : complaints) {
+      EXPECT_NE(message.find(complaint), std::string::npos) << message;
+    }
+  }
 }
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "training/learner/column_ring.hpp"
 #include "training/task/state.hpp"
 
 namespace striker::training {
@@ -21,43 +22,30 @@ struct Transition {
   float discount = 0.0F;  // gamma^n; 0 where the episode ended, but by its time limit
 };
 
-// A transition is a column of one matrix, so that a sample is one stretch of memory and a checkpoint one
-// tensor: state, next, reward, discount, action.
-class ReplayBuffer {
+// A column: state, next, reward, discount, action.
+class ReplayBuffer : public ColumnRing {
  public:
   ReplayBuffer(Eigen::Index inputs, Eigen::Index capacity)
-      : inputs_(inputs), columns_(Eigen::MatrixXf::Zero(2 * inputs + 3, capacity)) {}
+      : ColumnRing(2 * inputs + 3, capacity), inputs_(inputs) {}
 
   // Returns the transition's place.
   Eigen::Index push(const Transition& transition) {
-    const Eigen::Index place = pushed_ % columns_.cols();
-    columns_.col(place) << transition.state, transition.next, transition.reward, transition.discount,
+    const Eigen::Index place = claim();
+    column(place) << transition.state, transition.next, transition.reward, transition.discount,
         static_cast<float>(transition.action);
-    ++pushed_;
     return place;
   }
-  [[nodiscard]] Eigen::Index size() const { return pushed_ < columns_.cols() ? pushed_ : columns_.cols(); }
 
-  [[nodiscard]] auto state(Eigen::Index place) const { return columns_.col(place).head(inputs_); }
-  [[nodiscard]] auto next(Eigen::Index place) const { return columns_.col(place).segment(inputs_, inputs_); }
-  [[nodiscard]] float reward(Eigen::Index place) const { return columns_(2 * inputs_, place); }
-  [[nodiscard]] float discount(Eigen::Index place) const { return columns_(2 * inputs_ + 1, place); }
+  [[nodiscard]] auto state(Eigen::Index place) const { return columns().col(place).head(inputs_); }
+  [[nodiscard]] auto next(Eigen::Index place) const { return columns().col(place).segment(inputs_, inputs_); }
+  [[nodiscard]] float reward(Eigen::Index place) const { return columns()(2 * inputs_, place); }
+  [[nodiscard]] float discount(Eigen::Index place) const { return columns()(2 * inputs_ + 1, place); }
   [[nodiscard]] int action(Eigen::Index place) const {
-    return static_cast<int>(columns_(2 * inputs_ + 2, place));
-  }
-
-  // For checkpoints.
-  [[nodiscard]] std::int64_t pushed() const { return pushed_; }
-  [[nodiscard]] auto content() const { return columns_.leftCols(size()); }
-  void restore(std::int64_t pushed, const Eigen::Ref<const Eigen::MatrixXf>& content) {
-    pushed_ = pushed;
-    columns_.leftCols(size()) = content;
+    return static_cast<int>(columns()(2 * inputs_ + 2, place));
   }
 
  private:
   Eigen::Index inputs_;
-  Eigen::MatrixXf columns_;
-  std::int64_t pushed_ = 0;
 };
 
 // Folds n steps into one transition: r_0 + gamma r_1 + ... + gamma^n max Q(s_n). n = 1 is the paper's.

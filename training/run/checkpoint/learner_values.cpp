@@ -24,69 +24,76 @@ void read_adam(const SafeTensors& checkpoint, Adam& adam) {
   adam.square_decay = real(text(checkpoint, "adam.square_decay"));
 }
 
-void add_state(const LearnerState& state, const LearnerConfig& config, SafeTensors& checkpoint) {
-  checkpoint.tensors = {tensor_of("online", state.online.values), tensor_of("target", state.target.values),
-                        tensor_of("average", state.average.values)};
+// What both learners have.
+template <class State>
+void add_shared(const State& state, SafeTensors& checkpoint) {
+  checkpoint.tensors.push_back(tensor_of("online", state.online.values));
+  checkpoint.tensors.push_back(tensor_of("average", state.average.values));
   add_adam(state.adam, checkpoint);
-  checkpoint.tensors.push_back(tensor_of("replay", state.replay.content()));
+  checkpoint.metadata["decisions"] = std::to_string(state.decisions);
+  checkpoint.metadata["gradient_steps"] = std::to_string(state.gradient_steps);
+  checkpoint.metadata["random.sampling"] = std::to_string(state.sampling.state());
+}
+
+template <class State>
+void read_shared(const SafeTensors& checkpoint, State& state) {
+  const Eigen::Index size = state.online.values.size();
+  state.online.values = matrix(checkpoint, "online", size, 1);
+  state.average.values = matrix(checkpoint, "average", size, 1);
+  read_adam(checkpoint, state.adam);
+  state.decisions = number<std::int64_t>(checkpoint, "decisions");
+  state.gradient_steps = number<std::int64_t>(checkpoint, "gradient_steps");
+  state.sampling.resume(number<std::uint64_t>(checkpoint, "random.sampling"));
+}
+
+void add_ring(const std::string& name, const ColumnRing& ring, SafeTensors& checkpoint) {
+  checkpoint.tensors.push_back(tensor_of(name, ring.content()));
+  checkpoint.metadata[name + ".pushed"] = std::to_string(ring.pushed());
+}
+
+void read_ring(const SafeTensors& checkpoint, const std::string& name, const LearnerConfig& config,
+               ColumnRing& ring) {
+  const auto pushed = number<std::int64_t>(checkpoint, name + ".pushed");
+  const Eigen::Index held = std::min<Eigen::Index>(pushed, config.replay_size);
+  ring.restore(pushed, matrix(checkpoint, name, ring.rows(), held));
+}
+
+void add_state(const LearnerState& state, const LearnerConfig& config, SafeTensors& checkpoint) {
+  add_shared(state, checkpoint);
+  checkpoint.tensors.push_back(tensor_of("target", state.target.values));
+  add_ring("replay", state.replay, checkpoint);
   if (config.prioritised) {
     const auto leaves = state.priorities.leaves(static_cast<std::size_t>(state.replay.size()));
     checkpoint.tensors.push_back(
         {.name = "priorities", .shape = {leaves.size()}, .values = {leaves.begin(), leaves.end()}});
   }
   checkpoint.metadata["greatest_priority"] = exact_text(state.priorities.greatest());
-  checkpoint.metadata["replay.pushed"] = std::to_string(state.replay.pushed());
-  checkpoint.metadata["decisions"] = std::to_string(state.decisions);
-  checkpoint.metadata["gradient_steps"] = std::to_string(state.gradient_steps);
   checkpoint.metadata["random.choosing"] = std::to_string(state.choosing.state());
-  checkpoint.metadata["random.sampling"] = std::to_string(state.sampling.state());
 }
 
 LearnerState read_state(const SafeTensors& checkpoint, const LearnerConfig& config, LearnerState state) {
-  const Eigen::Index size = state.online.values.size();
-  state.online.values = matrix(checkpoint, "online", size, 1);
-  state.target.values = matrix(checkpoint, "target", size, 1);
-  state.average.values = matrix(checkpoint, "average", size, 1);
-  read_adam(checkpoint, state.adam);
-  const auto pushed = number<std::int64_t>(checkpoint, "replay.pushed");
-  const Eigen::Index held = std::min<Eigen::Index>(pushed, config.replay_size);
-  const Eigen::Index rows = 2 * state.online.shape().inputs + 3;
-  state.replay.restore(pushed, matrix(checkpoint, "replay", rows, held));
+  read_shared(checkpoint, state);
+  state.target.values = matrix(checkpoint, "target", state.target.values.size(), 1);
+  read_ring(checkpoint, "replay", config, state.replay);
   if (config.prioritised) {
-    const auto leaves = matrix(checkpoint, "priorities", held, 1);
+    const auto leaves = matrix(checkpoint, "priorities", state.replay.size(), 1);
     state.priorities.restore(std::vector<double>(leaves.data(), leaves.data() + leaves.size()),
                              real(text(checkpoint, "greatest_priority")));
   }
-  state.decisions = number<std::int64_t>(checkpoint, "decisions");
-  state.gradient_steps = number<std::int64_t>(checkpoint, "gradient_steps");
   state.choosing.resume(number<std::uint64_t>(checkpoint, "random.choosing"));
-  state.sampling.resume(number<std::uint64_t>(checkpoint, "random.sampling"));
   return state;
 }
 
 void add_state(const RolloutState& state, const LearnerConfig& /*config*/, SafeTensors& checkpoint) {
-  checkpoint.tensors = {tensor_of("online", state.online.values), tensor_of("average", state.average.values)};
-  add_adam(state.adam, checkpoint);
-  checkpoint.tensors.push_back(tensor_of("labels", state.labels.content()));
-  checkpoint.metadata["labels.pushed"] = std::to_string(state.labels.pushed());
-  checkpoint.metadata["decisions"] = std::to_string(state.decisions);
-  checkpoint.metadata["gradient_steps"] = std::to_string(state.gradient_steps);
+  add_shared(state, checkpoint);
+  add_ring("labels", state.labels, checkpoint);
   checkpoint.metadata["random.exploring"] = std::to_string(state.exploring.state());
-  checkpoint.metadata["random.sampling"] = std::to_string(state.sampling.state());
 }
 
 RolloutState read_state(const SafeTensors& checkpoint, const LearnerConfig& config, RolloutState state) {
-  const Eigen::Index size = state.online.values.size();
-  state.online.values = matrix(checkpoint, "online", size, 1);
-  state.average.values = matrix(checkpoint, "average", size, 1);
-  read_adam(checkpoint, state.adam);
-  const auto pushed = number<std::int64_t>(checkpoint, "labels.pushed");
-  const Eigen::Index held = std::min<Eigen::Index>(pushed, config.replay_size);
-  state.labels.restore(pushed, matrix(checkpoint, "labels", state.labels.rows(), held));
-  state.decisions = number<std::int64_t>(checkpoint, "decisions");
-  state.gradient_steps = number<std::int64_t>(checkpoint, "gradient_steps");
+  read_shared(checkpoint, state);
+  read_ring(checkpoint, "labels", config, state.labels);
   state.exploring.resume(number<std::uint64_t>(checkpoint, "random.exploring"));
-  state.sampling.resume(number<std::uint64_t>(checkpoint, "random.sampling"));
   return state;
 }
 
