@@ -7,7 +7,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string_view>
 
@@ -76,7 +75,7 @@ void set(Variation& variation, std::string_view name, std::string_view value) {
                   name));
 }
 
-// Gaussian noise on each coordinate, by Box and Muller.
+// Gaussian noise on each coordinate.
 class NoisyCamera final : public Camera {
  public:
   NoisyCamera(double noise_m, std::uint64_t seed)
@@ -92,10 +91,7 @@ class NoisyCamera final : public Camera {
   }
 
  private:
-  double draw() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - random_.uniform()));
-    return noise_m_ * radius * std::cos(2.0 * std::numbers::pi * random_.uniform());
-  }
+  double draw() { return noise_m_ * normal(random_); }
 
   ExactCamera exact_;
   double noise_m_;

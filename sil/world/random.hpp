@@ -5,7 +5,9 @@
 // episode i needs none of the episodes before it, and a new kind of draw disturbs no other.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace striker::sil {
 
@@ -42,5 +44,11 @@ class Random {
 
   std::uint64_t state_;
 };
+
+// From the normal distribution with mean 0 and standard deviation 1 (Box and Muller 1958); two draws.
+[[nodiscard]] inline double normal(Random& random) {
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+  return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
+}
 
 }  // namespace striker::sil

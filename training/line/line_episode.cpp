@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "sil/world/random_streams.hpp"
@@ -31,11 +30,6 @@ sil::Vec2 estimated_velocity_m_s(sil::Vec2 now_m, sil::Vec2 last_m) {
   return {(now_m.x - last_m.x) / sil::decision_period_s, (now_m.y - last_m.y) / sil::decision_period_s};
 }
 
-double normal(sil::Random& random) {  // Box and Muller 1958
-  const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
-  return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
-}
-
 // What the camera sees of ball and robot, while the robot stands still: a frame a decision, from some before the first
 // decision on.
 constexpr int frames_before = 2;
@@ -54,9 +48,9 @@ Pictures pictures_of(const sil::KickStart& start, double kept, double noise_m, s
     Picture& picture = pictures[static_cast<std::size_t>(frame)];
     picture = {.ball_m = seen.position_m, .robot_m = {}, .true_velocity_m_s = seen.velocity_m_s};
     if (noise_m > 0.0) {
-      picture.robot_m = {noise_m * normal(random), noise_m * normal(random)};
-      picture.ball_m.x += noise_m * normal(random);
-      picture.ball_m.y += noise_m * normal(random);
+      picture.robot_m = {noise_m * sil::normal(random), noise_m * sil::normal(random)};
+      picture.ball_m.x += noise_m * sil::normal(random);
+      picture.ball_m.y += noise_m * sil::normal(random);
     }
     for (int i = 0; ahead <= 0 && i < steps_per_decision; ++i) {
       auto& [position, velocity] = ball;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A kick episode on one line, that can be played from any of its decisions on, by many robots at once: what the
 // rollouts of a learner are played in. The robot drives straight, so that nothing but its place and speed on the line
-// changes until the contact (ceiling/line_play.hpp); all that the ball does is computed once an episode.
+// changes until the contact (line_play.hpp); all that the ball does is computed once an episode.
 //
 //   LineKick kick(task);
 //   LineEpisode episode = kick.draw(seed, number);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the best simple plan gets from a situation: backward for some decisions, wait for some, then forward to the
-// end. It is ceiling/line_play.hpp's planner for a task of one's own (its actions, its rewards), with what is known
+// end. It is line_play.hpp's planner for a task of one's own (its actions, its rewards), with what is known
 // about an episode instead of what is seen of it. It teaches a network before its own play is worth anything.
 #pragma once
 
