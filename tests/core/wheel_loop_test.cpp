@@ -77,6 +77,20 @@ TEST(WheelLoop, WhatIsAcceptedStaysWithin32Bits) {
                                      .top_rim_speed_mm_s = 2'500})));
 }
 
+TEST(WheelLoop, ARobotWhoseNumbersDoNotFitIsRefused) {
+  const auto refused = [](auto alter) {
+    RobotProfile altered = profile_of(forward);
+    alter(altered);
+    return !loops_fit(altered);
+  };
+  EXPECT_FALSE(refused([](RobotProfile&) {}));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.torque_limit_mNm = 0; }));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.top_rim_speed_mm_s = 8001; }));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.camera_latency_ticks = 51; }));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.camera_latency_ticks = -1; }));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.slip_gain_q12 = -1; }));
+}
+
 TEST(WheelLoop, RemovesASteadyLoad) {
   Rig rig;
   rig.run(1000, 2000, 60.0);

@@ -36,6 +36,7 @@ class Operator(unittest.TestCase):
         self.addCleanup(process.communicate, timeout=20)
         self.addCleanup(process.send_signal, signal.SIGTERM)
         process.stdout.readline()  # says when it listens
+        return process
 
     def press_stop(self):
         estop = command(PATIENT_MS, "estop")
@@ -61,6 +62,18 @@ class Operator(unittest.TestCase):
         clear = command(PATIENT_MS, "clear")
         self.assertEqual(clear.returncode, 0, clear.stderr)
         self.assertIn("state standby, fault none", clear.stdout)
+
+    def test_wrong_frames_right_behind_a_stop_do_not_hide_it(self):
+        process = self.start_firmware()
+        press = operator_consent.protect("EmergencyStop", bytes(2), 0)
+        with listening() as bus:
+            process.send_signal(signal.SIGSTOP)  # so that one tick finds them all
+            for frame in (press, bytes(len(press)), b"", press[:-1] + bytes([press[-1] ^ 1])):
+                send(bus, EMERGENCY_STOP, frame)
+            process.send_signal(signal.SIGCONT)
+        status = command(PATIENT_MS, "status")
+        self.assertIn("fault emergency_stop", status.stdout)
+        self.assertIn("1 wrong length, 2 wrong CRC", status.stdout)
 
     # The tool believes statuses after 16 of them, 160 ms: a controller that is slow holds a stop for longer than this
     # takes, so that the clear is asked for, and refused, within the hold.

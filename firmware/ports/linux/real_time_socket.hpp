@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware/host/can/can_socket.hpp"
@@ -39,7 +40,7 @@ class RealTimeSocket {
   loop::Received<std::int64_t> receive(std::size_t most);
 
   [[nodiscard]] can::BusHealth health() { return is_gone() ? can::BusHealth::bus_off : socket_.health(); }
-  [[nodiscard]] std::uint32_t lost() { return socket_.lost(); }
+  [[nodiscard]] std::uint32_t lost() { return socket_.lost() + stops_.lost() + std::exchange(skipped_, 0); }
 
   // For another thread. `reopen` is false as long as there is no such interface, or it is down; else the loop's next
   // calls go through new sockets.
@@ -53,6 +54,8 @@ class RealTimeSocket {
     alignas(cmsghdr) std::array<char, host::reception_space> control;
   };
 
+  std::size_t receive_stops(std::size_t room);
+
   std::string interface_;
   std::vector<std::uint16_t> others_;
   host::CanSocket socket_;
@@ -61,6 +64,7 @@ class RealTimeSocket {
   std::array<mmsghdr, greatest_frames_per_tick> messages_{};
   host::StampClock stamps_;
   FrameBatch batch_;
+  std::uint32_t skipped_ = 0;
   std::atomic<bool> gone_ = false;
 };
 
