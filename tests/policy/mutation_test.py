@@ -3,6 +3,7 @@
 """Breaks the kernel's promises one by one, in a copy of the sources, and requires that a test notices each time."""
 
 import argparse
+import functools
 import os
 import re
 import shutil
@@ -46,6 +47,7 @@ def host_instructions(copy, _):
     return built if built.returncode != 0 else shell(f"{copy}/tests/policy/kernel_instructions_test.sh", probe)
 
 
+@functools.cache
 def image(board):
     def test(copy, arguments):
         return shell(f"{copy}/tests/ports/image_test.py", "--board", board, "--boards",
@@ -89,6 +91,7 @@ def main():
     parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
     arguments = parser.parse_args()
     good = True
+    sound_results = {}
     with tempfile.TemporaryDirectory() as copy:
         copy_sources(copy)
         for name, file, old, new, test in MUTATIONS:
@@ -98,7 +101,9 @@ def main():
             broken, changes = re.subn(old, new, sound, count=1)
             if changes != 1:
                 sys.exit(f"mutation_test: {name}: nothing to change in {file}")
-            before = test(copy, arguments)
+            if test not in sound_results:
+                sound_results[test] = test(copy, arguments)
+            before = sound_results[test]
             with open(path, "w", encoding="utf-8") as text:
                 text.write(broken)
             after = test(copy, arguments)
