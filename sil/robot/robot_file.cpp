@@ -42,7 +42,8 @@ constexpr std::array keys = {
 }
 
 void refuse_unknown(const toml::table& table, const std::string& file) {
-  for (const auto& [key, value] : table) {
+  for (const auto& entry : table) {
+    const toml::key& key = entry.first;
     const auto* const known =
         std::find_if(keys.begin(), keys.end(), [&](const Key& one) { return one.name == key.str(); });
     if (known == keys.end()) {

@@ -185,8 +185,8 @@ double LineKick::contact_reward(const BallTrack& track, int step, const LineStat
   const auto n = static_cast<std::size_t>(step);
   const double ahead_m = track.x_m[n] - robot.position_m;
   const double speed_m_s = rules.signed_speed ? robot.speed_m_s : std::abs(robot.speed_m_s);
-  return rules.waiting_reward * (step / steps_per_decision) +
-         rules.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) +
+  const int decisions = step / steps_per_decision;
+  return rules.waiting_reward * decisions + rules.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) +
          rules.speed_reward_s_m * speed_m_s;
 }
 

@@ -53,6 +53,7 @@ TEST(Conditions, AreTheWorldsWithOtherServos) {
   int contacts = 0;
   for (std::uint64_t number = 0; number < 400; ++number) {
     std::vector<int> actions;
+    actions.reserve(sil::kick_decisions);
     for (int i = 0; i < sil::kick_decisions; ++i) {
       actions.push_back(i == 0 || random() % 3 == 0 ? static_cast<int>(random() % 3) : actions.back());
     }

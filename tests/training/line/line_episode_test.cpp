@@ -84,7 +84,7 @@ TEST(Plans, AreWorthWhatTheCeilingsPlannerSays) {
 
 TEST(LineKick, RefusesWhatIsNotOnALine) {
   EXPECT_EQ(LineKick::unfit({}), "");
-  const auto refused = [](const char* key, TaskConfig task) {
+  const auto refused = [](const char* key, const TaskConfig& task) {
     EXPECT_EQ(LineKick::unfit(task).find(key), 0U) << LineKick::unfit(task);
     EXPECT_THROW((void)LineKick(task), std::invalid_argument);
   };
