@@ -35,9 +35,11 @@
 
 #include "firmware/core/actions.hpp"
 #include "firmware/core/decision_clock.hpp"
+#include "firmware/core/estimation/command_lead.hpp"
 #include "firmware/core/estimation/estimator.hpp"
 #include "firmware/core/estimation/plausibility.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
+#include "firmware/core/pending_torque.hpp"
 #include "firmware/core/percepts.hpp"
 #include "firmware/core/pilot.hpp"
 #include "firmware/core/robot_profile.hpp"
@@ -67,11 +69,14 @@ class Controller {
   using Pilot = PilotType;
 
   explicit constexpr Controller(const RobotProfile& robot, std::uint32_t seed = 0)
-      : now_(robot, seed), seal_(seal_of(now_)), memory_seal_(seal_of(memory_)) {}
+      : now_(robot, seed),
+        seal_(seal_of(now_)),
+        memory_seal_(seal_of(memory_)),
+        pending_seal_(seal_of(pending_)) {}
 
   void step(const Inputs& inputs, Actions& actions) {
     memory_is_open_ = false;
-    if (seal_of(now_) != seal_) {
+    if (seal_of(now_) != seal_ || (is_late() && seal_of(pending_) != pending_seal_)) {
       forget_corrupt_state();
     }
     const Conditions conditions = sense(inputs);
@@ -81,6 +86,9 @@ class Controller {
     report(conditions, actions);
     if (memory_is_open_) {
       memory_seal_ = seal_of(memory_);
+    }
+    if (is_late()) {
+      pending_seal_ = seal_of(pending_);
     }
     seal_ = seal_of(now_);
   }
@@ -138,6 +146,9 @@ class Controller {
     Estimator estimator;
     PilotType pilot;
   };
+
+  // Commands take time: what is on its way is part of the state. Otherwise it stays empty, and is not looked at.
+  [[nodiscard]] bool is_late() const { return now_.robot.command_delay_ticks != 0; }
 
   // Nothing of it can be believed, the robot's limits included, but that it has to stand.
   void forget_corrupt_state() {
@@ -204,7 +215,7 @@ class Controller {
     if (percepts.wheels) {
       now_.measured = *percepts.wheels;
       now_.odometry.take(now_.measured);
-      if (active && !now_.plausibility.possible(now_.robot, now_.tick, now_.measured, now_.torque)) {
+      if (active && !now_.plausibility.possible(now_.robot, now_.tick, now_.measured, now_.loops.acting())) {
         now_.vigilance.see_impossible_wheels();
       }
     }
@@ -245,6 +256,7 @@ class Controller {
     if (next.state == State::active && now_.supervisor.state != State::active) {
       now_.clock.restart();
       now_.loops.reset();
+      pending_ = {};
       now_.plausibility.restart();
       now_.set_point = {};
       open_memory().pilot.reset();
@@ -267,8 +279,9 @@ class Controller {
     if (now_.supervisor.state != State::active) {
       return std::nullopt;  // the memory was corrupt
     }
-    const Decision decision = memory.pilot.decide(
-        relative_state(memory.estimator.at(now_.tick, now_.odometry)), due == DecisionDue::extrapolated);
+    const Estimate seen = led_through_delay(now_.robot, memory.estimator.at(now_.tick, now_.odometry),
+                                            pending_.speed_change_mm_s(now_.robot));
+    const Decision decision = memory.pilot.decide(relative_state(seen), due == DecisionDue::extrapolated);
     now_.set_point = memory.pilot.set_point();
     return decision;
   }
@@ -276,9 +289,9 @@ class Controller {
   DriveCommand drive(const Conditions& conditions) {
     DriveCommand command = {};
     if (now_.supervisor.state == State::active && now_.clock.started()) {
-      command = checked(
-          {.torque = now_.loops.step(now_.robot, now_.set_point, now_.measured), .set_point = now_.set_point},
-          conditions);
+      command = checked({.torque = now_.loops.step(now_.robot, now_.set_point, now_.measured, pending_),
+                         .set_point = now_.set_point},
+                        conditions);
     }
     now_.torque = command.torque;
     return command;
@@ -310,9 +323,11 @@ class Controller {
 
   Now now_;
   Memory memory_;
+  PendingTorques pending_;
   bool memory_is_open_ = false;  // in this step: it was found sound, and will be sealed again
   std::uint32_t seal_;
   std::uint32_t memory_seal_;
+  std::uint32_t pending_seal_;
 
   static_assert(std::is_trivially_copyable_v<PilotType>);
 };

@@ -24,8 +24,9 @@ class SlipLimiter {
   // The greatest torque for this tick, in mNm.
   [[nodiscard]] std::int32_t limit(const RobotProfile& robot, std::int32_t measured_mm_s);
 
-  // What the wheel was given in this tick.
+  // What acts on the wheel in this tick.
   void gave(std::int32_t torque_mNm) { torque_mNm_ = torque_mNm; }
+  [[nodiscard]] std::int32_t gave_mNm() const { return torque_mNm_; }
 
  private:
   // Whole words, all 0 at rest: they are part of the sealed state (seal.hpp).

@@ -6,12 +6,14 @@
 namespace striker::core {
 
 std::int32_t WheelLoop::step(const RobotProfile& robot, std::int32_t set_point_mm_s,
-                             std::int32_t measured_mm_s) {
+                             std::int32_t measured_mm_s, PendingTorque& pending) {
   const std::int32_t limit_mNm = slip_.limit(robot, measured_mm_s);
-  const std::int32_t error_mm_s = set_point_mm_s - measured_mm_s;
+  const std::int32_t coming_mm_s = std::clamp(measured_mm_s + pending.speed_change_mm_s(robot),
+                                              -greatest_measured_mm_s, greatest_measured_mm_s);
+  const std::int32_t error_mm_s = set_point_mm_s - coming_mm_s;
   const std::int32_t wanted_mNm = ((error_mm_s * robot.kp_q8) >> 8) + (integral_q16_ >> 16);
   const std::int32_t torque_mNm = std::clamp(wanted_mNm, -limit_mNm, limit_mNm);
-  slip_.gave(torque_mNm);
+  slip_.gave(pending.give(robot, torque_mNm));
   const bool winds_up =
       (wanted_mNm > limit_mNm && error_mm_s > 0) || (wanted_mNm < -limit_mNm && error_mm_s < 0);
   if (!winds_up) {

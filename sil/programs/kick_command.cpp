@@ -115,8 +115,8 @@ class KickSession {
  public:
   KickSession(const KickOptions& options, const Bus& bus, const std::vector<Observer*>& observers)
       : options_(&options),
-        variation_(variation_of(options.vary)),
         robot_(robot_of(options)),
+        variation_(completed(variation_of(options.vary), robot_)),
         plants_(make_plants(plant_kind_of(options.plant).value(), spec_of(robot_), variation_)),
         camera_(make_camera(variation_, options.seed)),
         seat_({.robot = 0,
@@ -131,7 +131,7 @@ class KickSession {
                    .episodes = options.episodes,
                    .place = {.robot = varied(spec_of(robot_), variation_),
                              .ball_kept_after_1_s = ball_kept_after_1_s(variation_)},
-                   .vision_latency_ticks = latency_ms(),
+                   .vision_latency_ticks = variation_.vision_latency_ms.value(),
                    .needs_controller = options.real_time},
                   seat_, observers) {}
 
@@ -172,13 +172,8 @@ class KickSession {
 
  private:
   const KickOptions* options_;
-  // As varied, or as described.
-  [[nodiscard]] std::uint32_t latency_ms() const {
-    return variation_.vision_latency_ms.value_or(static_cast<std::uint32_t>(robot_.camera_latency_ms));
-  }
-
-  Variation variation_;
   core::RobotDescription robot_;
+  Variation variation_;
   std::vector<std::unique_ptr<Plant>> plants_;
   StrikerDrives drives_;
   std::unique_ptr<Camera> camera_;

@@ -35,6 +35,7 @@ constexpr std::array keys = {
     Key{"torque_limit_mNm", &RobotDescription::torque_limit_mNm, 10, 32'000},
     Key{"top_rim_speed_mm_s", &RobotDescription::top_rim_speed_mm_s, 100, 8'000},
     Key{"camera_latency_ms", &RobotDescription::camera_latency_ms, 0, 50, 0},
+    Key{"command_delay_ms", &RobotDescription::command_delay_ms, 0, 50, 0},
     Key{"tyre_friction_percent", &RobotDescription::tyre_friction_percent, 10, 1'000, 300}};
 
 [[noreturn]] void fail(const std::string& file, const std::string& what) {

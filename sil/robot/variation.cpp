@@ -115,6 +115,13 @@ Variation variation_of(const std::string& text) {
   return variation;
 }
 
+Variation completed(Variation variation, const core::RobotDescription& described) {
+  const auto in_ms = [](std::int32_t ms) { return static_cast<std::uint32_t>(ms); };
+  variation.vision_latency_ms = variation.vision_latency_ms.value_or(in_ms(described.camera_latency_ms));
+  variation.command_delay_ms = variation.command_delay_ms.value_or(in_ms(described.command_delay_ms));
+  return variation;
+}
+
 RobotSpec varied(const RobotSpec& described, const Variation& variation) {
   RobotSpec robot = described;
   robot.body_mass_kg *= variation.mass;
@@ -137,8 +144,9 @@ std::vector<std::unique_ptr<Plant>> make_plants(PlantKind kind, const RobotSpec&
   if (variation.torque != 1.0) {
     plants.push_back(std::make_unique<ScaledPlant>(*plants.back(), variation.torque));
   }
-  if (variation.command_delay_ms != 0) {
-    plants.push_back(std::make_unique<LatePlant>(*plants.back(), variation.command_delay_ms));
+  const std::uint32_t delay_ms = variation.command_delay_ms.value_or(0);
+  if (delay_ms != 0) {
+    plants.push_back(std::make_unique<LatePlant>(*plants.back(), delay_ms));
   }
   return plants;
 }

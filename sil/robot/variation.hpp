@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/core/robot_profile.hpp"
 #include "sil/robot/camera.hpp"
 #include "sil/robot/plant.hpp"
 #include "sil/world/robot_specs.hpp"
@@ -25,15 +26,18 @@ struct Variation {
   double ball_damping = 1.0;  // of its rate
 
   double vision_noise_mm = 0.0;  // standard deviation of each coordinate of robot and ball
-  std::optional<std::uint32_t> vision_latency_ms =
-      {};                              // from the picture to its frames; nothing: as described
-  std::uint32_t command_delay_ms = 0;  // from the command's frame to the motors
+  // Nothing: as described.
+  std::optional<std::uint32_t> vision_latency_ms = {};  // from the picture to its frames
+  std::optional<std::uint32_t> command_delay_ms = {};   // from the command's frame to the motors
 
   bool operator==(const Variation&) const = default;
 };
 
 // From "mass=0.9,torque=1.1". Throws std::runtime_error that names what is wrong and what there is.
 [[nodiscard]] Variation variation_of(const std::string& text);
+
+// With the description's delays for those that are not varied.
+[[nodiscard]] Variation completed(Variation variation, const core::RobotDescription& described);
 
 [[nodiscard]] RobotSpec varied(const RobotSpec& described, const Variation& variation);
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <deque>
 #include <random>
 
 namespace striker::core {
@@ -14,19 +16,29 @@ namespace {
 constexpr RobotProfile robot = profile_of(forward);
 constexpr double acceleration_mm_s2_per_mNm = 27.8;
 
-// Runs the loop for a while on a forward robot with a 1 ms current-loop lag; returns the final speed.
+// Runs the loop for a while on a forward robot with a 1 ms current-loop lag, and commands that are late.
 struct Rig {
-  WheelLoop loop;
+  RobotProfile told = robot;
+  double mass_share = 1.0;
+  std::size_t delay_ticks = 0;
+  WheelLoop loop = {};
+  PendingTorque pending = {};
+  std::deque<std::int32_t> on_its_way = {};
   double speed_mm_s = 0.0;
   double torque_mNm = 0.0;
   double greatest_mm_s = 0.0;
 
   void run(std::int32_t set_point_mm_s, int ticks, double drag_mNm = 0.0) {
     for (int tick = 0; tick < ticks; ++tick) {
-      const std::int32_t wanted =
-          loop.step(robot, set_point_mm_s, static_cast<std::int32_t>(std::lround(speed_mm_s)));
-      torque_mNm += 0.632 * (wanted - torque_mNm);
-      speed_mm_s += acceleration_mm_s2_per_mNm * (torque_mNm - drag_mNm) * 0.001;
+      const auto measured_mm_s = static_cast<std::int32_t>(std::lround(speed_mm_s));
+      on_its_way.push_back(loop.step(told, set_point_mm_s, measured_mm_s, pending));
+      std::int32_t given_mNm = 0;
+      if (on_its_way.size() > delay_ticks) {
+        given_mNm = on_its_way.front();
+        on_its_way.pop_front();
+      }
+      torque_mNm += 0.632 * (given_mNm - torque_mNm);
+      speed_mm_s += acceleration_mm_s2_per_mNm / mass_share * (torque_mNm - drag_mNm) * 0.001;
       greatest_mm_s = std::max(greatest_mm_s, speed_mm_s);
     }
   }
@@ -42,9 +54,14 @@ TEST(WheelLoop, ReachesTheSetPointWithoutOvershootBeyondTwoPercent) {
 TEST(WheelLoop, NeverExceedsTheTorqueLimit) {
   std::mt19937 random(1);
   std::uniform_int_distribution<std::int32_t> speed(-8000, 8000);
-  WheelLoop loop;
-  for (int i = 0; i < 200'000; ++i) {
-    ASSERT_LE(std::abs(loop.step(robot, speed(random), speed(random))), robot.torque_limit_mNm);
+  for (const std::int32_t delay_ticks : {0, 20}) {
+    RobotProfile any = robot;
+    any.command_delay_ticks = delay_ticks;
+    WheelLoop loop;
+    PendingTorque pending;
+    for (int i = 0; i < 200'000; ++i) {
+      ASSERT_LE(std::abs(loop.step(any, speed(random), speed(random), pending)), any.torque_limit_mNm);
+    }
   }
 }
 
@@ -56,14 +73,16 @@ TEST(WheelLoop, WhatIsAcceptedStaysWithin32Bits) {
                                               .wheel_radius_um = 100'000,
                                               .axle_length_um = 140'000,
                                               .torque_limit_mNm = 2'000,
-                                              .top_rim_speed_mm_s = 2'500}}) {
+                                              .top_rim_speed_mm_s = 2'500,
+                                              .command_delay_ms = 50}}) {
     const RobotProfile any = profile_of(description);
     ASSERT_TRUE(loops_fit(any));
     WheelLoop loop;
+    PendingTorque pending;
     for (const std::int32_t set_point : {any.top_rim_speed_mm_s, -any.top_rim_speed_mm_s}) {
       for (const std::int32_t measured : {-8000, 0, 8000}) {
         for (int tick = 0; tick < 2000; ++tick) {
-          const std::int32_t torque = loop.step(any, set_point, measured);
+          const std::int32_t torque = loop.step(any, set_point, measured, pending);
           ASSERT_LE(std::abs(torque), any.torque_limit_mNm);
         }
       }
@@ -88,6 +107,8 @@ TEST(WheelLoop, ARobotWhoseNumbersDoNotFitIsRefused) {
   EXPECT_TRUE(refused([](RobotProfile& it) { it.top_rim_speed_mm_s = 8001; }));
   EXPECT_TRUE(refused([](RobotProfile& it) { it.camera_latency_ticks = 51; }));
   EXPECT_TRUE(refused([](RobotProfile& it) { it.camera_latency_ticks = -1; }));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.command_delay_ticks = 51; }));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.command_delay_ticks = -1; }));
   EXPECT_TRUE(refused([](RobotProfile& it) { it.slip_gain_q12 = -1; }));
 }
 
@@ -97,13 +118,38 @@ TEST(WheelLoop, RemovesASteadyLoad) {
   EXPECT_NEAR(rig.speed_mm_s, 1000.0, 3.0);
 }
 
+// A delay that was told, to a quarter of it, and a robot that is not quite as heavy as told.
+TEST(WheelLoop, LateCommandsThatAreToldOfDoNotMakeItSwing) {
+  for (const std::int32_t told_ms : {4, 20, 50}) {
+    for (const double delay_share : {0.75, 1.0, 1.25}) {
+      for (const double mass_share : {0.9, 1.0, 1.1}) {
+        RobotDescription late = forward;
+        late.command_delay_ms = told_ms;
+        Rig rig{.told = profile_of(late),
+                .mass_share = mass_share,
+                .delay_ticks = static_cast<std::size_t>(std::lround(delay_share * told_ms))};
+        rig.run(2000, 1000);
+        EXPECT_LE(rig.greatest_mm_s, 2000.0 * 1.15) << told_ms << ' ' << delay_share << ' ' << mass_share;
+        EXPECT_NEAR(rig.speed_mm_s, 2000.0, 20.0) << told_ms << ' ' << delay_share << ' ' << mass_share;
+      }
+    }
+  }
+}
+
+TEST(WheelLoop, LateCommandsThatNobodyTellsOfDo) {
+  Rig rig{.delay_ticks = 50};
+  rig.run(2000, 1000);
+  EXPECT_GT(rig.greatest_mm_s, 2000.0 * 1.15);
+}
+
 // Blocked at full torque for ten seconds, then told to go back: the torque must turn round at once.
 TEST(WheelLoop, DoesNotWindUp) {
   WheelLoop loop;
+  PendingTorque pending;
   for (int tick = 0; tick < 10'000; ++tick) {
-    EXPECT_EQ(loop.step(robot, 2550, 0), robot.torque_limit_mNm);
+    EXPECT_EQ(loop.step(robot, 2550, 0, pending), robot.torque_limit_mNm);
   }
-  EXPECT_LE(loop.step(robot, -500, 0), -robot.torque_limit_mNm + 1);
+  EXPECT_LE(loop.step(robot, -500, 0, pending), -robot.torque_limit_mNm + 1);
 }
 
 }  // namespace

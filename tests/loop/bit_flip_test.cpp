@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -22,9 +23,13 @@ constexpr int watched_ticks = 300;
 // A rig whose wheels follow the torque, and whose camera sees where they took the robot.
 class FlippedRig : public NodeRig {
  public:
+  std::deque<can::WheelCommand> on_its_way;  // as many as the commands take ticks
+
   void live() {
-    wheels.left_mm_s += command.left_torque_mNm / 36;
-    wheels.right_mm_s += command.right_torque_mNm / 36;
+    on_its_way.push_back(command);
+    wheels.left_mm_s += on_its_way.front().left_torque_mNm / 36;
+    wheels.right_mm_s += on_its_way.front().right_torque_mNm / 36;
+    on_its_way.pop_front();
     robot_um += (wheels.left_mm_s + wheels.right_mm_s) / 2;
     tick();
   }
@@ -111,8 +116,8 @@ void expect_sound(const FlippedRig& from, const char* where) {
   EXPECT_EQ(outcome.wrong_undetected, 0) << where;
 }
 
-FlippedRig driving(std::uint32_t ticks) {
-  FlippedRig rig;
+FlippedRig driving(std::uint32_t ticks, const FlippedRig& from = {}) {
+  FlippedRig rig = from;
   rig.run(210);
   rig.mode(can::Mode::arm);
   for (std::uint32_t i = 0; i < ticks; ++i) {
@@ -126,6 +131,16 @@ TEST(BitFlip, WhileDrivingItIsNoticedBeforeItMatters) {
   for (const std::uint32_t ticks : {137U, 139U, 150U}) {
     expect_sound(driving(ticks), "driving");
   }
+}
+
+// What is on its way to the wheels is state too.
+TEST(BitFlip, WithLateCommandsItIsNoticedAsWell) {
+  core::RobotDescription late = core::forward;
+  late.command_delay_ms = 20;
+  FlippedRig rig;
+  rig.node = GatedNode<BuiltInNode>(core::profile_of(late));
+  rig.on_its_way.resize(20);
+  expect_sound(driving(139, rig), "driving with late commands");
 }
 
 TEST(BitFlip, UnarmedItNeverMoves) {

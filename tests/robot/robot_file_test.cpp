@@ -22,7 +22,7 @@ TEST(RobotFile, TheThreeRolesAreThoseOfTheFirmware) {
 
 const std::string sound =
     "body_mass_g = 2_200\nwheel_mass_g = 120\nwheel_radius_um = 50_000\naxle_length_um = 200_000\n"
-    "torque_limit_mNm = 600\ntop_rim_speed_mm_s = 1_500\ncamera_latency_ms = 35\n";
+    "torque_limit_mNm = 600\ntop_rim_speed_mm_s = 1_500\ncamera_latency_ms = 35\ncommand_delay_ms = 20\n";
 
 std::string problem_of(const std::string& text) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "striker_robot.toml";
@@ -42,12 +42,12 @@ TEST(RobotFile, ARobotOfOnesOwnIsRead) {
 TEST(RobotFile, WhatIsWrongIsNamedWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "body_mass_g is missing: give a whole number from 200 to 100000"},
-      {sound + "colour = 3\n", "line 8: 'colour' is no key of a robot; there are body_mass_g, "},
+      {sound + "colour = 3\n", "line 9: 'colour' is no key of a robot; there are body_mass_g, "},
       {"body_mass_g = 5\n" + sound.substr(sound.find('\n') + 1),
        "line 1: body_mass_g = 5 must be a whole number from 200 to 100000"},
       {"body_mass_g = 2.2\n" + sound.substr(sound.find('\n') + 1),
        "line 1: body_mass_g must be a whole number"},
-      {sound + "camera_latency_ms = 1\n", "line 8: "},
+      {sound + "camera_latency_ms = 1\n", "line 9: "},
       {"= 3", "line 1: "}};
   for (const auto& [text, expected] : cases) {
     const std::string problem = problem_of(text);

@@ -56,13 +56,13 @@ bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture&
 }
 
 bool WheelPlausibility::follows(const RobotProfile& robot, Wheel& wheel, std::int32_t measured_mm_s) {
-  // The rim gains 100 / kp mm/s^2 for each mNm, as 100 rad/s is the loops' crossover (RobotProfile::kp_q8), and the
-  // sum counts ms: half of that is 12.8 / kp_q8 for each mNm ms.
+  // A mNm adds two thirds of slip_gain_q12 in a tick (RobotProfile). Half of what the sum should have gained is too much
+  // against it: a 12,288th of slip_gain_q12 for each mNm and tick. A 16th of both sides keeps them within 32 bits.
   const std::int32_t gained_mm_s = measured_mm_s - wheel.window_begin_mm_s;
   const std::int32_t torque_sum = magnitude(wheel.torque_sum_mNm);
   const bool strong = torque_sum > robot.torque_limit_mNm * static_cast<std::int32_t>(window_ticks) / 2;
   const bool against = (wheel.torque_sum_mNm > 0) != (gained_mm_s > 0) &&
-                       magnitude(gained_mm_s) * robot.kp_q8 > 13 * torque_sum;
+                       magnitude(gained_mm_s) * 768 > torque_sum / 16 * robot.slip_gain_q12;
   wheel.against = strong && against ? wheel.against + 1 : 0;
   wheel.torque_sum_mNm = 0;
   wheel.window_begin_mm_s = measured_mm_s;
