@@ -69,14 +69,11 @@ class Controller {
   using Pilot = PilotType;
 
   explicit constexpr Controller(const RobotProfile& robot, std::uint32_t seed = 0)
-      : now_(robot, seed),
-        seal_(seal_of(now_)),
-        memory_seal_(seal_of(memory_)),
-        pending_seal_(seal_of(pending_)) {}
+      : now_(robot, seed), seal_(seal_of(now_)) {}
 
   void step(const Inputs& inputs, Actions& actions) {
     memory_is_open_ = false;
-    if (seal_of(now_) != seal_ || (is_late() && seal_of(pending_) != pending_seal_)) {
+    if (seal_of(now_) != seal_ || (is_late() && !pending_.is_sound())) {
       forget_corrupt_state();
     }
     const Conditions conditions = sense(inputs);
@@ -85,10 +82,10 @@ class Controller {
     actions.drive = drive(conditions);
     report(conditions, actions);
     if (memory_is_open_) {
-      memory_seal_ = seal_of(memory_);
+      memory_.close();
     }
     if (is_late()) {
-      pending_seal_ = seal_of(pending_);
+      pending_.close();
     }
     seal_ = seal_of(now_);
   }
@@ -114,7 +111,7 @@ class Controller {
   [[nodiscard]] State state() const { return now_.supervisor.state; }
   [[nodiscard]] Fault fault() const { return now_.supervisor.fault; }
   [[nodiscard]] Faults faults() const { return now_.supervisor.faults; }
-  [[nodiscard]] const PilotType& pilot() const { return memory_.pilot; }
+  [[nodiscard]] const PilotType& pilot() const { return memory_.state.pilot; }
   [[nodiscard]] const RobotProfile& robot() const { return now_.robot; }
 
  private:
@@ -159,7 +156,7 @@ class Controller {
     const std::uint32_t tick = now_.tick;
     now_ = Now(RobotProfile{}, now_.consent.next_seed());
     now_.tick = now_.boot_tick = now_.fault_tick = tick;
-    memory_ = {};
+    memory_.state = {};
     memory_is_open_ = true;
     now_.supervisor = corrupt;
   }
@@ -167,11 +164,11 @@ class Controller {
   Memory& open_memory() {
     if (!memory_is_open_) {
       memory_is_open_ = true;
-      if (seal_of(memory_) != memory_seal_) {
+      if (!memory_.is_sound()) {
         forget_corrupt_state();
       }
     }
-    return memory_;
+    return memory_.state;
   }
 
   Conditions sense(const Inputs& inputs) {
@@ -256,7 +253,7 @@ class Controller {
     if (next.state == State::active && now_.supervisor.state != State::active) {
       now_.clock.restart();
       now_.loops.reset();
-      pending_ = {};
+      pending_.state = {};
       now_.plausibility.restart();
       now_.set_point = {};
       open_memory().pilot.reset();
@@ -280,7 +277,7 @@ class Controller {
       return std::nullopt;  // the memory was corrupt
     }
     const Estimate seen = led_through_delay(now_.robot, memory.estimator.at(now_.tick, now_.odometry),
-                                            pending_.speed_change_mm_s(now_.robot));
+                                            pending_.state.speed_change_mm_s(now_.robot));
     const Decision decision = memory.pilot.decide(relative_state(seen), due == DecisionDue::extrapolated);
     now_.set_point = memory.pilot.set_point();
     return decision;
@@ -289,7 +286,7 @@ class Controller {
   DriveCommand drive(const Conditions& conditions) {
     DriveCommand command = {};
     if (now_.supervisor.state == State::active && now_.clock.started()) {
-      command = checked({.torque = now_.loops.step(now_.robot, now_.set_point, now_.measured, pending_),
+      command = checked({.torque = now_.loops.step(now_.robot, now_.set_point, now_.measured, pending_.state),
                          .set_point = now_.set_point},
                         conditions);
     }
@@ -322,12 +319,10 @@ class Controller {
   }
 
   Now now_;
-  Memory memory_;
-  PendingTorques pending_;
+  Sealed<Memory> memory_;
+  Sealed<PendingTorques> pending_;
   bool memory_is_open_ = false;  // in this step: it was found sound, and will be sealed again
   std::uint32_t seal_;
-  std::uint32_t memory_seal_;
-  std::uint32_t pending_seal_;
 
   static_assert(std::is_trivially_copyable_v<PilotType>);
 };

@@ -40,4 +40,14 @@ template <class State>
   return sum;
 }
 
+// A state beside its seal.
+template <class State>
+struct Sealed {
+  State state{};
+  std::uint32_t seal = seal_of(state);
+
+  [[nodiscard]] bool is_sound() const { return seal_of(state) == seal; }
+  void close() { seal = seal_of(state); }
+};
+
 }  // namespace striker::core
