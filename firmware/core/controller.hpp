@@ -147,8 +147,8 @@ class Controller {
   // Commands take time: what is on its way is part of the state. Otherwise it stays empty, and is not looked at.
   [[nodiscard]] bool is_late() const { return now_.robot.command_delay_ticks != 0; }
 
-  // Nothing of it can be believed, the robot's limits included, but that it has to stand.
-  void forget_corrupt_state() {
+  // Nothing of it can be believed, the robot's limits included, but that it has to stand. Apart, for the stack's sake.
+  [[gnu::noinline]] void forget_corrupt_state() {
     const Supervisor corrupt = {
         .state = State::fault,
         .fault = Fault::state_corrupt,

@@ -19,32 +19,30 @@ namespace striker::core {
 
 class PendingTorque {
  public:
-  // Torque within +-32,000 mNm, as loops_fit() has it. Returns the one that acts in the tick that the next measurement
-  // tells of.
+  // Within the profile's limit. Returns the torque, to a 127th of the limit, that acts in the tick that the next
+  // measurement tells of.
   [[nodiscard]] std::int32_t give(const RobotProfile& robot, std::int32_t torque_mNm) {
     if (robot.command_delay_ticks == 0) {
       return torque_mNm;
     }
-    const std::int32_t acting_mNm = given_mNm_[next_];
-    given_mNm_[next_] = static_cast<std::int16_t>(torque_mNm);
-    sum_mNm_ += torque_mNm - acting_mNm;
+    const std::int32_t acting = given_[next_];
+    const std::int32_t given = torque_mNm * torque_steps / robot.torque_limit_mNm;
+    given_[next_] = static_cast<std::int8_t>(given);
+    sum_ += given - acting;
     next_ = next_ + 1 < static_cast<std::uint32_t>(robot.command_delay_ticks) ? next_ + 1 : 0;
-    return acting_mNm;
+    return acting * robot.torque_limit_mNm / torque_steps;
   }
 
-  // By this torque on both wheels; two thirds of the slip limiter's gain are the described robot's.
+  // By this torque on both wheels.
   [[nodiscard]] std::int32_t speed_change_mm_s(const RobotProfile& robot) const {
-    if (robot.command_delay_ticks == 0) {
-      return 0;
-    }
-    return static_cast<std::int32_t>((std::int64_t{sum_mNm_} * (robot.slip_gain_q12 * 2 / 3)) >> 12);
+    return robot.command_delay_ticks == 0 ? 0 : (sum_ * robot.pending_gain_q12) >> 12;
   }
 
  private:
   // A ring of as many as the delay has ticks. Sealed: whole words (seal.hpp).
-  std::array<std::int16_t, greatest_delay_ticks> given_mNm_{};
+  std::array<std::int8_t, greatest_delay_ticks + 2> given_{};
   std::uint32_t next_ = 0;
-  std::int32_t sum_mNm_ = 0;
+  std::int32_t sum_ = 0;
 };
 
 struct PendingTorques {

@@ -51,6 +51,7 @@ inline constexpr RobotDescription forward = {.body_mass_g = 1500,
                                              .top_rim_speed_mm_s = 2550};
 
 inline constexpr std::int32_t greatest_delay_ticks = 50;
+inline constexpr std::int32_t torque_steps = 127;  // of the limit, in which pending torque is kept
 
 struct RobotProfile {
   std::int32_t torque_limit_mNm = 0;
@@ -61,7 +62,8 @@ struct RobotProfile {
   std::int32_t slip_gain_q12 = 0;  // the most that a mNm on both wheels adds in a tick, in mm/s: gripping
   std::int32_t camera_latency_ticks = 0;
   std::int32_t command_delay_ticks = 0;
-  std::int32_t turn_q12 = 0;  // binary angle for a um that the right rim is ahead of the left
+  std::int32_t pending_gain_q12 = 0;  // what a step of torque on both wheels adds in a tick, in mm/s
+  std::int32_t turn_q12 = 0;          // binary angle for a um that the right rim is ahead of the left
 
   bool operator==(const RobotProfile&) const = default;
 };
@@ -94,22 +96,24 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
 [[nodiscard]] constexpr RobotProfile profile_of(const RobotDescription& robot) {
   using namespace detail;
   const std::int64_t moved_mass_g = robot.body_mass_g + 3 * robot.wheel_mass_g;
+  const std::int64_t radius_mass = std::int64_t{robot.wheel_radius_um} * moved_mass_g;
   const std::int64_t crossover = crossover_rad_s(robot.command_delay_ms);
   const std::int64_t kp_e9 = crossover * robot.wheel_radius_um * moved_mass_g / 2;
   constexpr std::int64_t e9 = 1'000'000'000;
   constexpr std::int64_t ticks_a_second = 1'000;
   constexpr std::int64_t circle_um_e3 =
       10'430'378;  // 65,536 / (2 pi): counts for an arc of one axle's length
-  return {.torque_limit_mNm = robot.torque_limit_mNm,
-          .top_rim_speed_mm_s = robot.top_rim_speed_mm_s,
-          .overspeed_mm_s = rounded_ratio(overspeed_percent * robot.top_rim_speed_mm_s, 100),
-          .kp_q8 = rounded_ratio(256 * kp_e9, e9),
-          .ki_tick_q16 = rounded_ratio(65'536 * crossover * kp_e9, 10 * ticks_a_second * e9),
-          .slip_gain_q12 = rounded_ratio(4'096 * grip_percent * 2'000'000 / 100,
-                                         std::int64_t{robot.wheel_radius_um} * moved_mass_g),
-          .camera_latency_ticks = robot.camera_latency_ms,
-          .command_delay_ticks = robot.command_delay_ms,
-          .turn_q12 = rounded_ratio(4'096 * circle_um_e3, 1'000 * std::int64_t{robot.axle_length_um})};
+  return {
+      .torque_limit_mNm = robot.torque_limit_mNm,
+      .top_rim_speed_mm_s = robot.top_rim_speed_mm_s,
+      .overspeed_mm_s = rounded_ratio(overspeed_percent * robot.top_rim_speed_mm_s, 100),
+      .kp_q8 = rounded_ratio(256 * kp_e9, e9),
+      .ki_tick_q16 = rounded_ratio(65'536 * crossover * kp_e9, 10 * ticks_a_second * e9),
+      .slip_gain_q12 = rounded_ratio(4'096 * grip_percent * 2'000'000 / 100, radius_mass),
+      .camera_latency_ticks = robot.camera_latency_ms,
+      .command_delay_ticks = robot.command_delay_ms,
+      .pending_gain_q12 = rounded_ratio(8'192'000'000 * robot.torque_limit_mNm, torque_steps * radius_mass),
+      .turn_q12 = rounded_ratio(4'096 * circle_um_e3, 1'000 * std::int64_t{robot.axle_length_um})};
 }
 
 inline constexpr std::int32_t greatest_measured_mm_s = 8'000;
@@ -126,6 +130,8 @@ inline constexpr std::int32_t greatest_measured_mm_s = 8'000;
   constexpr std::int64_t greatest = std::numeric_limits<std::int32_t>::max();
   if (robot.camera_latency_ticks < 0 || robot.camera_latency_ticks > greatest_delay_ticks ||
       robot.command_delay_ticks < 0 || robot.command_delay_ticks > greatest_delay_ticks ||
+      robot.pending_gain_q12 < 0 ||
+      std::int64_t{greatest_delay_ticks} * torque_steps * robot.pending_gain_q12 > greatest ||
       robot.slip_gain_q12 < 0 || std::int64_t{robot.slip_gain_q12} * robot.torque_limit_mNm > greatest) {
     return false;
   }
@@ -148,6 +154,8 @@ static_assert(profile_of(forward) == RobotProfile{.torque_limit_mNm = 400,
                                                   .ki_tick_q16 = 2359,   // 36 mNm/(mm/s)/s at 1 kHz
                                                   .slip_gain_q12 = 171,  // 0.0417 mm/s
                                                   .camera_latency_ticks = 0,
+                                                  .command_delay_ticks = 0,
+                                                  .pending_gain_q12 = 358,  // 0.0875 mm/s
                                                   .turn_q12 = 305});
 
 }  // namespace striker::core

@@ -76,6 +76,32 @@ TEST(WheelPlausibility, NoWheelIsTwiceAsFastAsItsTopSpeed) {
   }
 }
 
+// Free at the contact with the ball, it gets what is on its way, and comes back as slowly.
+TEST(WheelPlausibility, WithLateCommandsAWheelMayBeTwiceAsFastForTwiceTheDelay) {
+  RobotProfile late = robot;
+  late.command_delay_ticks = 20;
+  WheelPlausibility plausibility;
+  std::uint32_t tick = 100;
+  const auto possible = [&](std::int32_t speed_mm_s) {
+    return plausibility.possible(late, ++tick, {speed_mm_s, 0}, {});
+  };
+  for (int again = 0; again < 3; ++again) {
+    for (int ramp = 0; ramp < 30; ++ramp) {
+      ASSERT_TRUE(possible(200 * ramp));
+    }
+    for (int i = 4; i < 40; ++i) {
+      ASSERT_TRUE(possible(5'800));
+    }
+    for (int ramp = 29; ramp >= 0; --ramp) {
+      if (ramp > 25) {
+        ASSERT_FALSE(possible(200 * ramp)) << again << ' ' << ramp;
+      } else {
+        ASSERT_TRUE(possible(200 * ramp));
+      }
+    }
+  }
+}
+
 TEST(PicturePlausibility, ANumberFitsItsTimeByLessThanAPeriod) {
   for (std::int32_t pictures = 1; pictures <= 3; ++pictures) {
     const auto due = static_cast<std::uint32_t>(50 * pictures);

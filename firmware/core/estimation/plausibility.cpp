@@ -80,8 +80,11 @@ bool WheelPlausibility::possible(const RobotProfile& robot, std::uint32_t tick, 
   const bool jumps_on = jump_ticks_ > jump_limit_ticks;
   jump_ticks_ = std::min(jump_ticks_, 2 * jump_limit_ticks);
   const std::int32_t greatest_mm_s = 2 * robot.top_rim_speed_mm_s;
-  const bool runs_away =
+  const bool beyond_any =
       magnitude(measured.left_mm_s) > greatest_mm_s || magnitude(measured.right_mm_s) > greatest_mm_s;
+  beyond_ticks_ = beyond_any ? beyond_ticks_ + std::max<std::int32_t>(elapsed, 1) : 0;
+  // A wheel that is free at the contact with the ball gets the torque that is on its way, and needs as long to come back.
+  const bool runs_away = beyond_ticks_ > 2 * robot.command_delay_ticks;
   if (begun_ == 0) {
     left_.window_begin_mm_s = measured.left_mm_s;
     right_.window_begin_mm_s = measured.right_mm_s;

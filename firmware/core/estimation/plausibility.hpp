@@ -54,7 +54,8 @@ class WheelPlausibility {
   std::uint32_t begun_ = 0;
   std::uint32_t tick_ = 0;
   std::uint32_t in_window_ = 0;
-  std::uint32_t jump_ticks_ = 0;  // of the last jumps, that are still held against it
+  std::uint32_t jump_ticks_ = 0;   // of the last jumps, that are still held against it
+  std::int32_t beyond_ticks_ = 0;  // that a wheel has been faster than any
 };
 
 }  // namespace striker::core
