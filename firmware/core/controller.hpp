@@ -148,7 +148,7 @@ class Controller {
   [[nodiscard]] bool is_late() const { return now_.robot.command_delay_ticks != 0; }
 
   // Nothing of it can be believed, the robot's limits included, but that it has to stand. Apart, for the stack's sake.
-  [[gnu::noinline]] void forget_corrupt_state() {
+  [[gnu::noinline, gnu::cold]] void forget_corrupt_state() {
     const Supervisor corrupt = {
         .state = State::fault,
         .fault = Fault::state_corrupt,

@@ -5,7 +5,7 @@
 // words finds every error within one word, a flipped bit among them. Types with padding are refused by the
 // compiler: what a padding byte holds is nobody's promise.
 //
-// Cost: a load and an addition a word, unrolled.
+// Cost: a load and an addition a word; unrolled where there are more than `few_words`.
 #pragma once
 
 #include <array>
@@ -15,6 +15,8 @@
 #include <type_traits>
 
 namespace striker::core {
+
+inline constexpr std::size_t few_words = 32;  // unrolled they would take more flash than time
 
 // Apart from its callers: unrolled, it is long.
 template <class State>
@@ -31,11 +33,21 @@ template <class State>
     return sum;
   }  // GCOVR_EXCL_STOP
   const auto* bytes = reinterpret_cast<const unsigned char*>(&state);
-#pragma GCC unroll 16
-  for (std::size_t i = 0; i < words; ++i) {
+  const auto add = [&](std::size_t i) {
     std::uint32_t word = 0;
     __builtin_memcpy(&word, __builtin_assume_aligned(bytes + sizeof word * i, sizeof word), sizeof word);
     sum += word;
+  };
+  if constexpr (words <= few_words) {
+#pragma GCC unroll 1
+    for (std::size_t i = 0; i < words; ++i) {
+      add(i);
+    }
+  } else {
+#pragma GCC unroll 16
+    for (std::size_t i = 0; i < words; ++i) {
+      add(i);
+    }
   }
   return sum;
 }

@@ -6,6 +6,7 @@
 // profile's gain, half as much again for a robot that is lighter or stronger than described, and 1.5 mm/s a tick for
 // what else moves it (a ball, another robot, a slope). A rim that leads it by more than 45 mm/s in the torque's
 // direction spins. Each tick of that withholds another tenth of the torque limit, each other tick gives a 256th back.
+// Where commands are late, a cut is a fifth, and the next one waits until this one acts.
 // So the wheel works near the torque at which it spins, and finds it anew all the time: no friction need be known.
 //
 //   limit = slip.limit(robot, measured_mm_s);  torque = clamp(wanted, -limit, limit);  slip.gave(torque);
@@ -30,9 +31,10 @@ class SlipLimiter {
 
  private:
   // Whole words, all 0 at rest: they are part of the sealed state (seal.hpp).
-  std::int32_t reference_q6_ = 0;  // mm/s
-  std::int32_t withheld_q8_ = 0;   // of the torque limit
-  std::int32_t torque_mNm_ = 0;    // of the last tick
+  std::int32_t reference_q6_ = 0;    // mm/s
+  std::int32_t withheld_q8_ = 0;     // of the torque limit
+  std::int32_t torque_mNm_ = 0;      // of the last tick
+  std::int32_t settling_ticks_ = 0;  // until the last cut acts
 };
 
 }  // namespace striker::core

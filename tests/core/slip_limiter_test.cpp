@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace striker::core {
 namespace {
@@ -86,6 +87,29 @@ TEST(SlipLimiter, AWheelThatWouldSpinKeepsNearTheRobotAndMostOfItsGrip) {
       EXPECT_GT(seen.gained_m_s, 0.7 * 0.2 * 9.81 * friction) << friction << ": of what the floor would give";
     }
   }
+}
+
+TEST(SlipLimiter, WhereCommandsAreLateTheNextCutWaitsForTheLast) {
+  RobotProfile late = robot;
+  late.command_delay_ticks = 20;
+  SlipLimiter slip;
+  std::vector<std::int32_t> limits_mNm;
+  for (int tick = 0; tick < 60; ++tick) {
+    limits_mNm.push_back(slip.limit(late, 100 * tick));  // free in the air, with torque that was on its way
+    slip.gave(late.torque_limit_mNm);
+  }
+  int cuts = 0;
+  int last_cut = -20;
+  for (int tick = 1; tick < 60; ++tick) {
+    const auto i = static_cast<std::size_t>(tick);
+    if (limits_mNm[i] < limits_mNm[i - 1]) {
+      EXPECT_GE(tick - last_cut, 20);
+      EXPECT_NEAR(limits_mNm[i - 1] - limits_mNm[i], 48 * 400 / 256, 1);
+      last_cut = tick;
+      ++cuts;
+    }
+  }
+  EXPECT_EQ(cuts, 3);
 }
 
 TEST(SlipLimiter, GripThatComesBackGetsAllTorqueWithinAQuarterOfASecond) {
