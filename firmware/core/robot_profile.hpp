@@ -24,8 +24,8 @@ struct RobotDescription {
   std::int32_t torque_limit_mNm;             // of each wheel
   std::int32_t top_rim_speed_mm_s;           // of each wheel
   std::int32_t camera_latency_ms = 0;        // from a picture to its frames: 0 to 50
-  std::int32_t command_delay_ms = 0;         // from a command's frame to the torque: 0 to 50
   std::int32_t tyre_friction_percent = 300;  // Coulomb, between tyre and floor: 300 is a coefficient of 3.0
+  std::int32_t command_delay_ms = 0;         // from a command's frame to the torque: 0 to 50
 
   bool operator==(const RobotDescription&) const = default;
 };
@@ -75,7 +75,7 @@ namespace detail {
 // those 3 ms at most. The integral's corner is a decade below.
 constexpr std::int64_t crossover_rad_s(std::int64_t command_delay_ms) {
   constexpr std::int64_t own_delay_ms = 3;
-  return std::min<std::int64_t>(100, 600 / (own_delay_ms + command_delay_ms / 2));
+  return std::min<std::int64_t>(100, 600 / (own_delay_ms + std::max<std::int64_t>(command_delay_ms, 0) / 2));
 }
 
 inline constexpr std::int64_t overspeed_percent = 115;
@@ -108,7 +108,7 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
       .top_rim_speed_mm_s = robot.top_rim_speed_mm_s,
       .overspeed_mm_s = rounded_ratio(overspeed_percent * robot.top_rim_speed_mm_s, 100),
       .kp_q8 = rounded_ratio(256 * kp_e9, e9),
-      .ki_tick_q16 = rounded_ratio(65'536 * crossover * kp_e9, 10 * ticks_a_second * e9),
+      .ki_tick_q16 = rounded_ratio(65'536 * (crossover * kp_e9 / 10), ticks_a_second * e9),
       .slip_gain_q12 = rounded_ratio(4'096 * grip_percent * 2'000'000 / 100, radius_mass),
       .camera_latency_ticks = robot.camera_latency_ms,
       .command_delay_ticks = robot.command_delay_ms,
@@ -130,13 +130,14 @@ inline constexpr std::int32_t greatest_measured_mm_s = 8'000;
   constexpr std::int64_t greatest = std::numeric_limits<std::int32_t>::max();
   if (robot.camera_latency_ticks < 0 || robot.camera_latency_ticks > greatest_delay_ticks ||
       robot.command_delay_ticks < 0 || robot.command_delay_ticks > greatest_delay_ticks ||
-      robot.pending_gain_q12 < 0 ||
+      robot.pending_gain_q12 <= 0 ||
       std::int64_t{greatest_delay_ticks} * torque_steps * robot.pending_gain_q12 > greatest ||
-      robot.slip_gain_q12 < 0 || std::int64_t{robot.slip_gain_q12} * robot.torque_limit_mNm > greatest) {
+      robot.slip_gain_q12 <= 0 || std::int64_t{robot.slip_gain_q12} * robot.torque_limit_mNm > greatest) {
     return false;
   }
   const std::int32_t error_mm_s = greatest_measured_mm_s + robot.top_rim_speed_mm_s;
-  const std::int32_t integrated_mm_s = (2 * robot.torque_limit_mNm + 2) * 256 / robot.kp_q8 + 1;
+  const std::int32_t integrated_mm_s =
+      robot.command_delay_ticks != 0 ? error_mm_s : (2 * robot.torque_limit_mNm + 2) * 256 / robot.kp_q8 + 1;
   return std::int64_t{error_mm_s} * robot.kp_q8 <= greatest &&
          std::int64_t{robot.torque_limit_mNm} * 65536 +
                  std::int64_t{integrated_mm_s < error_mm_s ? integrated_mm_s : error_mm_s} *

@@ -44,7 +44,7 @@ template <class State>
       add(i);
     }
   } else {
-#pragma GCC unroll 16
+#pragma GCC unroll 8
     for (std::size_t i = 0; i < words; ++i) {
       add(i);
     }

@@ -6,7 +6,7 @@
 // profile's gain, half as much again for a robot that is lighter or stronger than described, and 1.5 mm/s a tick for
 // what else moves it (a ball, another robot, a slope). A rim that leads it by more than 45 mm/s in the torque's
 // direction spins. Each tick of that withholds another tenth of the torque limit, each other tick gives a 256th back.
-// Where commands are late, a cut is a fifth, and the next one waits until this one acts.
+// Where commands are late, the torque is the one that acts, a cut is a fifth, and the next one waits until this one acts.
 // So the wheel works near the torque at which it spins, and finds it anew all the time: no friction need be known.
 //
 //   limit = slip.limit(robot, measured_mm_s);  torque = clamp(wanted, -limit, limit);  slip.gave(torque);

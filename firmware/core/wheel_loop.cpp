@@ -12,14 +12,21 @@ std::int32_t WheelLoop::step(const RobotProfile& robot, std::int32_t set_point_m
                                               -greatest_measured_mm_s, greatest_measured_mm_s);
   const std::int32_t error_mm_s = set_point_mm_s - coming_mm_s;
   const std::int32_t wanted_mNm = ((error_mm_s * robot.kp_q8) >> 8) + (integral_q16_ >> 16);
-  const std::int32_t torque_mNm = std::clamp(wanted_mNm, -limit_mNm, limit_mNm);
+  std::int32_t torque_mNm = std::clamp(wanted_mNm, -limit_mNm, limit_mNm);
+  if (robot.command_delay_ticks != 0) {
+    // What brakes may still be on its way: the check of commands sees the measured speed alone.
+    torque_mNm = measured_mm_s > robot.overspeed_mm_s    ? std::min<std::int32_t>(torque_mNm, 0)
+                 : measured_mm_s < -robot.overspeed_mm_s ? std::max<std::int32_t>(torque_mNm, 0)
+                                                         : torque_mNm;
+  }
   slip_.gave(pending.give(robot, torque_mNm));
   const bool winds_up =
       (wanted_mNm > limit_mNm && error_mm_s > 0) || (wanted_mNm < -limit_mNm && error_mm_s < 0);
   if (!winds_up) {
     const std::int32_t integral_limit_q16 = limit_mNm * 65536;
-    integral_q16_ =
-        std::clamp(integral_q16_ + error_mm_s * robot.ki_tick_q16, -integral_limit_q16, integral_limit_q16);
+    // Of the measured error: what is on its way against a steady load is no speed to come.
+    integral_q16_ = std::clamp(integral_q16_ + (set_point_mm_s - measured_mm_s) * robot.ki_tick_q16,
+                               -integral_limit_q16, integral_limit_q16);
   }
   return torque_mNm;
 }

@@ -59,7 +59,7 @@ class ClockTicks {
     const Received<Time> received = bus.receive(frames_per_tick_);
     oldest_ = received.oldest;
     last_.received = received.frames.size();
-    last_.full = last_.received == frames_per_tick_;
+    last_.full = last_.received >= frames_per_tick_;
     return Tick{.number = last_.wake.tick,
                 .frames = received.frames,
                 .timing = window_.message(),

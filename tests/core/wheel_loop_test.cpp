@@ -113,9 +113,15 @@ TEST(WheelLoop, ARobotWhoseNumbersDoNotFitIsRefused) {
 }
 
 TEST(WheelLoop, RemovesASteadyLoad) {
-  Rig rig;
-  rig.run(1000, 2000, 60.0);
-  EXPECT_NEAR(rig.speed_mm_s, 1000.0, 3.0);
+  for (const std::int32_t delay_ms : {0, 20, 50}) {
+    RobotDescription described = forward;
+    described.command_delay_ms = delay_ms;
+    for (const std::int32_t set_point_mm_s : {1000, 0}) {
+      Rig rig{.told = profile_of(described), .delay_ticks = static_cast<std::size_t>(delay_ms)};
+      rig.run(set_point_mm_s, 3000, 60.0);
+      EXPECT_NEAR(rig.speed_mm_s, set_point_mm_s, 3.0) << delay_ms;
+    }
+  }
 }
 
 // A delay that was told, to a quarter of it, and a robot that is not quite as heavy as told.
@@ -130,7 +136,7 @@ TEST(WheelLoop, LateCommandsThatAreToldOfDoNotMakeItSwing) {
                 .delay_ticks = static_cast<std::size_t>(std::lround(delay_share * told_ms))};
         rig.run(2000, 1000);
         EXPECT_LE(rig.greatest_mm_s, 2000.0 * 1.15) << told_ms << ' ' << delay_share << ' ' << mass_share;
-        EXPECT_NEAR(rig.speed_mm_s, 2000.0, 20.0) << told_ms << ' ' << delay_share << ' ' << mass_share;
+        EXPECT_NEAR(rig.speed_mm_s, 2000.0, 40.0) << told_ms << ' ' << delay_share << ' ' << mass_share;
       }
     }
   }

@@ -10,7 +10,7 @@
 
 namespace striker::core {
 
-// `speed_change_mm_s` until then, as WheelLoops predicts it.
+// `speed_change_mm_s` until then, as PendingTorques predicts it.
 [[nodiscard]] Estimate led_through_delay(const RobotProfile& robot, const Estimate& now,
                                          std::int32_t speed_change_mm_s);
 

@@ -56,13 +56,14 @@ bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture&
 }
 
 bool WheelPlausibility::follows(const RobotProfile& robot, Wheel& wheel, std::int32_t measured_mm_s) {
-  // A mNm adds two thirds of slip_gain_q12 in a tick (RobotProfile). Half of what the sum should have gained is too much
-  // against it: a 12,288th of slip_gain_q12 for each mNm and tick. A 16th of both sides keeps them within 32 bits.
+  // Half of what the sum of the torque should have gained is too much against it. In steps of torque, as loops_fit() has
+  // it, 50 of the greatest gain stay within 32 bits, and a window is 35 ticks at most.
   const std::int32_t gained_mm_s = measured_mm_s - wheel.window_begin_mm_s;
   const std::int32_t torque_sum = magnitude(wheel.torque_sum_mNm);
   const bool strong = torque_sum > robot.torque_limit_mNm * static_cast<std::int32_t>(window_ticks) / 2;
   const bool against = (wheel.torque_sum_mNm > 0) != (gained_mm_s > 0) &&
-                       magnitude(gained_mm_s) * 768 > torque_sum / 16 * robot.slip_gain_q12;
+                       magnitude(gained_mm_s) * 8'192 >
+                           torque_sum * torque_steps / robot.torque_limit_mNm * robot.pending_gain_q12;
   wheel.against = strong && against ? wheel.against + 1 : 0;
   wheel.torque_sum_mNm = 0;
   wheel.window_begin_mm_s = measured_mm_s;
@@ -82,7 +83,7 @@ bool WheelPlausibility::possible(const RobotProfile& robot, std::uint32_t tick, 
   const std::int32_t greatest_mm_s = 2 * robot.top_rim_speed_mm_s;
   const bool beyond_any =
       magnitude(measured.left_mm_s) > greatest_mm_s || magnitude(measured.right_mm_s) > greatest_mm_s;
-  beyond_ticks_ = beyond_any ? beyond_ticks_ + std::max<std::int32_t>(elapsed, 1) : 0;
+  beyond_ticks_ = std::max<std::int32_t>(0, beyond_ticks_ + (beyond_any ? elapsed : -elapsed));
   // A wheel that is free at the contact with the ball gets the torque that is on its way, and needs as long to come back.
   const bool runs_away = beyond_ticks_ > 2 * robot.command_delay_ticks;
   if (begun_ == 0) {

@@ -35,7 +35,7 @@ class WheelPlausibility {
  public:
   void restart() { *this = {}; }
 
-  // Once for every measurement while armed, with the torque that was commanded before it. False if it cannot be.
+  // Once for every measurement while armed, with the torque that acted before it. False if it cannot be.
   bool possible(const RobotProfile& robot, std::uint32_t tick, const WheelSpeeds& measured,
                 const WheelTorques& torque);
 

@@ -83,7 +83,7 @@ std::size_t RealTimeSocket::receive_stops(std::size_t room) {
 loop::Received<std::int64_t> RealTimeSocket::receive(std::size_t most) {
   batch_.clear();
   const std::size_t room = std::min(most, slots_.size());
-  const std::size_t wanted = room - receive_stops(room);
+  const std::size_t wanted = std::max<std::size_t>(room - receive_stops(room), room < slots_.size() ? 1 : 0);
   for (std::size_t i = 0; i < wanted; ++i) {
     messages_[i].msg_hdr.msg_control = slots_[i].control.data();
     messages_[i].msg_hdr.msg_controllen = slots_[i].control.size();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SocketCAN for the real-time loop: one system call receives all the frames of a tick, with the kernel's time
-// stamps, and one sends them. Emergency stops have a socket of their own, which is read first: no other traffic
-// stands before them, and no full queue drops them.
+// stamps, and one sends them. Emergency stops have a socket of their own, which is read first: no other identifier's
+// traffic stands before them, or fills their queue.
 //
 // An interface that goes down or is deleted is a bus that is off. One that was made anew under the same name, as by a
 // USB adapter that was plugged in again, takes new sockets: another thread makes them (`reopen`), as that allocates.
