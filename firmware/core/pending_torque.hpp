@@ -25,12 +25,13 @@ class PendingTorque {
     if (robot.command_delay_ticks == 0) {
       return torque_mNm;
     }
-    const std::int32_t acting = given_[next_];
+    std::int8_t& kept = given_[next_];
+    const std::int32_t acting_mNm = kept * robot.torque_limit_mNm / torque_steps;
     const std::int32_t given = torque_mNm * torque_steps / robot.torque_limit_mNm;
-    given_[next_] = static_cast<std::int8_t>(given);
-    sum_ += given - acting;
+    sum_ += given - kept;
+    kept = static_cast<std::int8_t>(given);
     next_ = next_ + 1 < static_cast<std::uint32_t>(robot.command_delay_ticks) ? next_ + 1 : 0;
-    return acting * robot.torque_limit_mNm / torque_steps;
+    return acting_mNm;
   }
 
   // By this torque on both wheels.

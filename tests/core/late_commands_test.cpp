@@ -27,7 +27,7 @@ TEST(PendingTorque, ActsTheToldTimeLaterAndAddsUpUntilThen) {
     for (int tick = 0; tick < 1'000; ++tick) {
       expected.push_back(torque(random));
       // Kept to a 127th of the limit, towards 0.
-      ASSERT_NEAR(pending.give(robot, expected.back()), expected.front(), 400 / 127 + 1)
+      ASSERT_NEAR(pending.give(robot, expected.back()), expected.front(), 400.0 / 127.0 + 1.0)
           << delay_ticks << ' ' << tick;
       expected.pop_front();
       double sum_mNm_ticks = 0.0;
