@@ -25,9 +25,7 @@
 // disarm can. A port's stop is a disarm in every respect.
 //
 // The state is sealed between two steps (seal.hpp): a bit of it that changes by itself is found before it is used.
-//
-// Cost: instructions a step on every core are in firmware/policy/README.md; the longest is one with a
-// decision.
+// Cost: instructions a step on every core are in firmware/policy/README.md; a decision's step is the longest.
 #pragma once
 
 #include <cstdint>
@@ -112,7 +110,6 @@ class Controller {
   [[nodiscard]] Fault fault() const { return now_.supervisor.fault; }
   [[nodiscard]] Faults faults() const { return now_.supervisor.faults; }
   [[nodiscard]] const PilotType& pilot() const { return memory_.state.pilot; }
-  [[nodiscard]] const RobotProfile& robot() const { return now_.robot; }
 
  private:
   // What a tick changes. Without padding, and sealed whole.
@@ -251,12 +248,15 @@ class Controller {
       now_.fault_tick = now_.tick;
     }
     if (next.state == State::active && now_.supervisor.state != State::active) {
+      open_memory().pilot.reset();
+      if (now_.supervisor.state == State::fault) {
+        return;  // the memory was corrupt
+      }
       now_.clock.restart();
       now_.loops.reset();
       pending_.state = {};
       now_.plausibility.restart();
       now_.set_point = {};
-      open_memory().pilot.reset();
     }
     if (next.state != now_.supervisor.state) {
       now_.consent.close();

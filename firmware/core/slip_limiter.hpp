@@ -9,7 +9,7 @@
 // Where commands are late, the torque is the one that acts, a cut is a fifth, and the next one waits until this one acts.
 // So the wheel works near the torque at which it spins, and finds it anew all the time: no friction need be known.
 //
-//   limit = slip.limit(robot, measured_mm_s);  torque = clamp(wanted, -limit, limit);  slip.gave(torque);
+//   limit = slip.limit(robot, measured_mm_s);  torque = clamp(wanted, -limit, limit);  slip.acts(torque);
 //
 // Once a tick. Speeds within +-8000 mm/s; about thirty instructions, two of them multiplications.
 #pragma once
@@ -26,14 +26,14 @@ class SlipLimiter {
   [[nodiscard]] std::int32_t limit(const RobotProfile& robot, std::int32_t measured_mm_s);
 
   // What acts on the wheel in this tick.
-  void gave(std::int32_t torque_mNm) { torque_mNm_ = torque_mNm; }
-  [[nodiscard]] std::int32_t gave_mNm() const { return torque_mNm_; }
+  void acts(std::int32_t torque_mNm) { torque_mNm_ = torque_mNm; }
+  [[nodiscard]] std::int32_t acting_mNm() const { return torque_mNm_; }
 
  private:
   // Whole words, all 0 at rest: they are part of the sealed state (seal.hpp).
   std::int32_t reference_q6_ = 0;    // mm/s
   std::int32_t withheld_q8_ = 0;     // of the torque limit
-  std::int32_t torque_mNm_ = 0;      // of the last tick
+  std::int32_t torque_mNm_ = 0;      // that acts
   std::int32_t settling_ticks_ = 0;  // until the last cut acts
 };
 

@@ -19,7 +19,7 @@ std::int32_t WheelLoop::step(const RobotProfile& robot, std::int32_t set_point_m
                  : measured_mm_s < -robot.overspeed_mm_s ? std::max<std::int32_t>(torque_mNm, 0)
                                                          : torque_mNm;
   }
-  slip_.gave(pending.give(robot, torque_mNm));
+  slip_.acts(pending.give(robot, torque_mNm));
   const bool winds_up =
       (wanted_mNm > limit_mNm && error_mm_s > 0) || (wanted_mNm < -limit_mNm && error_mm_s < 0);
   if (!winds_up) {

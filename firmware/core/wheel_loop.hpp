@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wheel-speed loops: a PI controller for each wheel, once a tick (1 kHz), from rim speed to torque, with a
 // torque limit, a slip limiter (slip_limiter.hpp), and anti-windup by conditional integration. Gains and limit are the
-// robot's (RobotProfile).
+// robot's (RobotProfile). Where commands are late, the proportional part takes the speed that is to come
+// (pending_torque.hpp), and the integral the measured one, so that a steady load leaves no error.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ class WheelLoop {
                                   std::int32_t measured_mm_s, PendingTorque& pending);
 
   // In the tick that the next measurement tells of: the last torque, or an earlier one if commands are late.
-  [[nodiscard]] std::int32_t acting_mNm() const { return slip_.gave_mNm(); }
+  [[nodiscard]] std::int32_t acting_mNm() const { return slip_.acting_mNm(); }
 
  private:
   std::int32_t integral_q16_ = 0;  // mNm in Q16

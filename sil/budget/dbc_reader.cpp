@@ -21,7 +21,6 @@ namespace striker::sil {
 
 namespace {
 
-constexpr double ns_per_ms = 1e6;
 constexpr std::size_t most_bytes = std::size_t{64} << 20U;
 
 // VFrameFormat by its index, where the file gives no names.
@@ -51,7 +50,7 @@ std::optional<Number> number_in(std::string_view text, Format... format) {
 std::int64_t first_but_zero_ns(std::initializer_list<double> times_ms) {
   for (const double time_ms : times_ms) {
     if (time_ms != 0.0) {
-      return std::llround(time_ms * ns_per_ms);
+      return std::llround(time_ms * static_cast<double>(ns_per_ms));
     }
   }
   return 0;

@@ -7,12 +7,6 @@
 
 namespace striker::sil {
 
-namespace {
-
-constexpr std::int64_t ns_per_ms = 1'000'000;
-
-}  // namespace
-
 std::vector<BusMessage> table_messages() {
   std::vector<BusMessage> messages;
   can::for_each_layout([&](const auto& message) {

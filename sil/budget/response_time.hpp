@@ -30,6 +30,8 @@
 
 namespace striker::sil {
 
+inline constexpr std::int64_t ns_per_ms = 1'000'000;
+
 struct BusMessage {
   std::string name;
   std::string sender;

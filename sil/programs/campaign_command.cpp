@@ -5,14 +5,9 @@
 
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "sil/programs/fault_command.hpp"
 
 namespace striker::sil {
-
-namespace {
-
-constexpr int exit_violated = 1;
-
-}  // namespace
 
 void define(CLI::App& campaign, CampaignOptions& options) {
   campaign.add_option("--runs", options.runs, "how many; a run is a function of seed and number")

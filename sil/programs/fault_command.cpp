@@ -20,8 +20,6 @@ namespace striker::sil {
 
 namespace {
 
-constexpr int exit_violated = 1;
-
 FaultRunOptions run_options(const FaultOptions& options, std::uint64_t episode) {
   return {.plant = plant_kind_of(options.plant).value(),
           .anywhere = options.pose == "anywhere",

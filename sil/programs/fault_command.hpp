@@ -23,7 +23,9 @@ struct FaultOptions {
 
 void define(CLI::App& faults, FaultOptions& options);
 
-// The exit status: 1 if an invariant was violated.
+inline constexpr int exit_violated = 1;  // an invariant did not hold
+
+// The exit status.
 [[nodiscard]] int play_faults(const FaultOptions& options);
 
 }  // namespace striker::sil

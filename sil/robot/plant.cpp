@@ -12,8 +12,6 @@ namespace striker::sil {
 
 namespace {
 
-constexpr std::array wheels = {Wheel::left, Wheel::right};
-
 class ServoPlant final : public Plant {
  public:
   ServoPlant(std::size_t robot, double torque_ceiling_Nm)

@@ -9,6 +9,7 @@
 // Constants: AI World Cup test_world, branch master 37312a93 (2019), unless a comment names another source.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -36,6 +37,7 @@ struct BallState {
 };
 
 enum class Wheel { left, right };
+inline constexpr std::array wheels = {Wheel::left, Wheel::right};
 
 struct WorldConfig {
   std::vector<RobotSpec> robots = {robot_spec(Role::forward)};  // one to ten

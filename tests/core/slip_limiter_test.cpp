@@ -58,7 +58,7 @@ Ride ride(Wheel wheel, int direction) {
   Ride result;
   for (int tick = 0; tick < 200; ++tick) {
     const std::int32_t limit_mNm = slip.limit(robot, wheel.measured_mm_s());
-    slip.gave(direction * limit_mNm);
+    slip.acts(direction * limit_mNm);
     wheel.move(direction * limit_mNm * 1e-3);
     result.greatest_slip_m_s = std::max(result.greatest_slip_m_s, std::abs(wheel.rim_m_s - wheel.robot_m_s));
     result.least_limit_mNm = std::min(result.least_limit_mNm, limit_mNm);
@@ -96,7 +96,7 @@ TEST(SlipLimiter, WhereCommandsAreLateTheNextCutWaitsForTheLast) {
   std::vector<std::int32_t> limits_mNm;
   for (int tick = 0; tick < 60; ++tick) {
     limits_mNm.push_back(slip.limit(late, 100 * tick));  // free in the air, with torque that was on its way
-    slip.gave(late.torque_limit_mNm);
+    slip.acts(late.torque_limit_mNm);
   }
   int cuts = 0;
   int last_cut = -20;
@@ -115,12 +115,12 @@ TEST(SlipLimiter, WhereCommandsAreLateTheNextCutWaitsForTheLast) {
 TEST(SlipLimiter, GripThatComesBackGetsAllTorqueWithinAQuarterOfASecond) {
   SlipLimiter slip;
   (void)slip.limit(robot, 0);
-  slip.gave(robot.torque_limit_mNm);
+  slip.acts(robot.torque_limit_mNm);
   for (int tick = 0; tick < 50; ++tick) {
-    slip.gave(slip.limit(robot, 3000 + 100 * tick));
+    slip.acts(slip.limit(robot, 3000 + 100 * tick));
   }
   for (int tick = 0; tick < 250; ++tick) {
-    slip.gave(0);
+    slip.acts(0);
     (void)slip.limit(robot, 1000);
   }
   EXPECT_EQ(slip.limit(robot, 1000), robot.torque_limit_mNm);

@@ -13,9 +13,9 @@ namespace striker::training {
 
 namespace {
 
-constexpr int forward = 0;
-constexpr int stop = 1;
-constexpr int backward = 2;
+constexpr int go_forward = 0;
+constexpr int stay = 1;
+constexpr int go_back = 2;
 
 constexpr double forward_gain_m_s2 = 11.1;  // two wheels' torque over what they push, rounded
 
@@ -38,20 +38,20 @@ int intercept(const InterceptorParameters& parameters, const KickEnvironment& en
   const sil::Vec2 velocity{seen.ball_vx_m_s, seen.ball_vy_m_s};
   constexpr double beside_m = 0.5 * sil::robot_side_m + sil::ball_radius_m;
   if (std::abs(ball.y) < beside_m) {
-    return ball.x > 0.0 ? forward : stop;
+    return ball.x > 0.0 ? go_forward : stay;
   }
   // The ball slows down: its way is its speed times this, at most 1 / damping.
   const double slowed_s = -ball.y / velocity.y;
   if (!(slowed_s > 0.0) || slowed_s * sil::damping_per_s >= 1.0) {
-    return stop;
+    return stay;
   }
   const double crossing_s = -std::log(1.0 - sil::damping_per_s * slowed_s) / sil::damping_per_s;
   const double way_m = ball.x + velocity.x * slowed_s - parameters.stop_short_m;
   const double spare_s = crossing_s - way_time_s(way_m, seen.robot_speed_m_s);
   if (way_m < parameters.run_up_m && spare_s > parameters.time_to_back_up_s) {
-    return backward;
+    return go_back;
   }
-  return way_m > 0.0 && spare_s < parameters.lead_s ? forward : stop;
+  return way_m > 0.0 && spare_s < parameters.lead_s ? go_forward : stay;
 }
 
 int plan_ahead(const KickEnvironment& env) {
@@ -61,7 +61,7 @@ int plan_ahead(const KickEnvironment& env) {
       {.position_m = {seen.ball_x_m, seen.ball_y_m}, .velocity_m_s = {seen.ball_vx_m_s, seen.ball_vy_m_s}},
       left * steps_per_decision);
   const PlanValue value = best_plan(track, {.position_m = 0.0, .speed_m_s = seen.robot_speed_m_s}, left);
-  return value.contact && value.reward > left * official.waiting_reward ? value.plan.action(0) : stop;
+  return value.contact && value.reward > left * official.waiting_reward ? value.plan.action(0) : stay;
 }
 
 std::string_view name_of(Rival rival) {
@@ -73,9 +73,9 @@ std::string_view name_of(Rival rival) {
 ActionRule rule_of(Rival rival, std::uint64_t seed, std::uint64_t episode) {
   switch (rival) {
     case Rival::forward:
-      return [](const KickEnvironment&) { return forward; };
+      return [](const KickEnvironment&) { return go_forward; };
     case Rival::stop:
-      return [](const KickEnvironment&) { return stop; };
+      return [](const KickEnvironment&) { return stay; };
     case Rival::random:
       return [random = sil::Random(seed, episode, sil::random_stream::random_rival)](
                  const KickEnvironment&) mutable {

@@ -12,7 +12,7 @@ namespace striker::training {
 
 namespace {
 
-constexpr std::size_t columns = 110;
+constexpr std::size_t line_length = 110;
 
 void add_layer(Fnv1a& hash, const IntegerLayer& layer, WeightType type) {
   for (const std::int16_t weight : layer.weights) {
@@ -36,7 +36,7 @@ std::string array_of(const Numbers& numbers, std::size_t column) {
   column += text.size();
   for (std::size_t i = 0; i < std::size(numbers); ++i) {
     std::string number = fmt::format("{}{}", numbers[i], i + 1 < std::size(numbers) ? "," : "}}");
-    if (column + number.size() + 2 > columns) {
+    if (column + number.size() + 2 > line_length) {
       text += '\n';
       text.append(indent, ' ');
       column = indent;

@@ -12,7 +12,7 @@ namespace striker::training {
 
 namespace {
 
-RolloutState initial_state(const LearnerSetup& setup, std::uint64_t seed) {
+RolloutState initial_rollout_state(const LearnerSetup& setup, std::uint64_t seed) {
   const Parameters parameters = initial_parameters(setup.shape, seed);
   return {.online = parameters,
           .average = parameters,
@@ -28,7 +28,7 @@ RolloutLearner::RolloutLearner(const LearnerSetup& setup, const std::vector<Task
                                std::uint64_t seed)
     : setup_(setup),
       seed_(seed),
-      state_(initial_state(setup, seed)),
+      state_(initial_rollout_state(setup, seed)),
       rollouts_(setup.shape, setup.rollout, tasks),
       places_(static_cast<std::size_t>(setup.learner.batch)),
       sampled_(setup.shape.inputs, setup.learner.batch),

@@ -15,7 +15,7 @@ constexpr ParameterRange always_or_less = {.least = 0.01, .greatest = 1.0, .othe
 constexpr MessageParameter any = MessageParameter::any;
 constexpr MessageParameter one = MessageParameter::one;
 
-constexpr std::array kinds = {
+constexpr std::array all_kinds = {
     FaultKindInfo{.kind = sync_repeat,
                   .name = "sync_repeat",
                   .place = frames,
@@ -292,29 +292,29 @@ constexpr std::array kinds = {
 };
 
 consteval bool in_order() {
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    if (kinds[i].kind != static_cast<FaultKind>(i)) {
+  for (std::size_t i = 0; i < all_kinds.size(); ++i) {
+    if (all_kinds[i].kind != static_cast<FaultKind>(i)) {
       return false;
     }
   }
-  return kinds.back().kind == torque_saturated;
+  return all_kinds.back().kind == torque_saturated;
 }
 static_assert(in_order(), "the table has every kind, in the order of the enumeration");
 
 }  // namespace
 
 std::span<const FaultKindInfo> fault_kinds() {
-  return kinds;
+  return all_kinds;
 }
 
 const FaultKindInfo& info_of(FaultKind kind) {
-  return kinds[static_cast<std::size_t>(kind)];
+  return all_kinds[static_cast<std::size_t>(kind)];
 }
 
 std::optional<FaultKind> fault_kind_of(std::string_view name) {
   const auto* const found =
-      std::find_if(kinds.begin(), kinds.end(), [&](const FaultKindInfo& info) { return info.name == name; });
-  return found == kinds.end() ? std::nullopt : std::optional(found->kind);
+      std::find_if(all_kinds.begin(), all_kinds.end(), [&](const FaultKindInfo& info) { return info.name == name; });
+  return found == all_kinds.end() ? std::nullopt : std::optional(found->kind);
 }
 
 }  // namespace striker::sil

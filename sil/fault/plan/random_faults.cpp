@@ -19,8 +19,8 @@ namespace {
 constexpr std::uint64_t most_faults = 3;
 constexpr double earliest_ms = -100.0;  // the first picture
 constexpr double latest_ms = 1900.0;
-constexpr double shortest_ms = 1.0;
-constexpr double longest_ms = 2000.0;
+constexpr double shortest_fault_ms = 1.0;
+constexpr double longest_fault_ms = 2000.0;
 
 std::uint16_t draw_message(Random& random) {
   std::vector<std::uint16_t> identifiers;
@@ -56,7 +56,7 @@ Fault draw_fault(Random& random) {
   const FaultKindInfo& info = kinds[random.below(kinds.size())];
   Fault fault = usual(info.kind, 0, 0);
   fault.from_ms = static_cast<std::int32_t>(random.uniform(earliest_ms, latest_ms));
-  const auto lasts_ms = static_cast<std::int32_t>(draw_log(random, shortest_ms, longest_ms));
+  const auto lasts_ms = static_cast<std::int32_t>(draw_log(random, shortest_fault_ms, longest_fault_ms));
   fault.until_ms = fault.from_ms + (info.at_once ? 1 : lasts_ms);
   if (info.message == MessageParameter::one ||
       (info.message == MessageParameter::any && random.uniform() < 0.7)) {

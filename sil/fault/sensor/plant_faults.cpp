@@ -7,8 +7,6 @@ namespace striker::sil {
 
 namespace {
 
-constexpr std::array wheels = {Wheel::left, Wheel::right};
-
 // More than any motor here: holds a wheel against its own.
 constexpr double brake_Nm = 2.0;
 
