@@ -312,8 +312,8 @@ const FaultKindInfo& info_of(FaultKind kind) {
 }
 
 std::optional<FaultKind> fault_kind_of(std::string_view name) {
-  const auto* const found =
-      std::find_if(all_kinds.begin(), all_kinds.end(), [&](const FaultKindInfo& info) { return info.name == name; });
+  const auto* const found = std::find_if(all_kinds.begin(), all_kinds.end(),
+                                         [&](const FaultKindInfo& info) { return info.name == name; });
   return found == all_kinds.end() ? std::nullopt : std::optional(found->kind);
 }
 
