@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node that this build's programs and images run: the built-in policy, with Striker's own drives.
+// The node that this build's programs and images run: the built-in policy, for the built-in robot, with Striker's own
+// drives.
 #pragma once
 
 #include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/core/controller.hpp"
 #include "firmware/core/pilot.hpp"
-#include "firmware/core/robot_profile.hpp"
+#include "firmware/loop/built_in_robot.hpp"
 #include "firmware/loop/controller_node.hpp"
 #include "firmware/policy/built_in.hpp"
 
@@ -13,8 +14,6 @@ namespace striker::loop {
 
 using BuiltInPilot = core::Pilot<policy::built_in>;
 using BuiltInNode = ControllerNode<core::Controller<BuiltInPilot>, can::StrikerDrives>;
-
-inline constexpr core::RobotProfile built_in_robot = core::profile_of(core::forward);
 
 static_assert(BuiltInPilot::suits(built_in_robot),
               "STRIKER POLICY: an action goes beyond the robot's top speed");

@@ -23,7 +23,7 @@
 #include "sil/record/episode_journal.hpp"
 #include "sil/record/episode_progress.hpp"
 #include "sil/record/pacer.hpp"
-#include "sil/robot/robot_file.hpp"
+#include "sil/robot/description/robot_file.hpp"
 #include "sil/robot/striker_drives.hpp"
 #include "sil/robot/variation.hpp"
 #include "sil/scenario/kick_scenario.hpp"
@@ -47,7 +47,7 @@ struct Bus {
 
 core::RobotDescription robot_of(const KickOptions& options) {
   if (options.robot.empty()) {
-    return core::forward;
+    return loop::built_in_description;
   }
   const core::RobotDescription robot = read_robot(options.robot);
   if (!loop::BuiltInPilot::suits(core::profile_of(robot))) {

@@ -12,6 +12,7 @@
 #include "sil/fault/faulty_seat.hpp"
 #include "sil/fault/watch/timeline.hpp"
 #include "sil/robot/striker_drives.hpp"
+#include "sil/robot/variation.hpp"
 #include "sil/scenario/kick_scenario.hpp"
 
 namespace striker::sil {
@@ -70,11 +71,13 @@ Play play(const std::vector<TimedFault>& faults, double torque_scale, const Faul
   } else {
     socket = std::make_unique<LockstepLink>(options.interface, SocketCanOptions{});
   }
-  const auto plant = make_plant(options.plant, 0, robot_spec(Role::forward));
+  const RobotSpec robot = spec_of(loop::built_in_description);
+  const Variation as_described = completed({}, loop::built_in_description);
+  const auto plants = make_plants(options.plant, robot, as_described);
   StrikerDrives drives;
   ExactCamera camera(0);
   FaultySeat seat({.robot = 0,
-                   .plant = *plant,
+                   .plant = *plants.back(),
                    .drives = drives,
                    .camera = camera,
                    .link = in_process ? static_cast<ControllerLink&>(*in_process) : *socket,
@@ -87,7 +90,9 @@ Play play(const std::vector<TimedFault>& faults, double torque_scale, const Faul
   KickScenario scenario({.pose = options.anywhere ? PoseMode::anywhere : PoseMode::origin,
                          .seed = options.seed,
                          .first_episode = options.episode,
-                         .episodes = episodes},
+                         .episodes = episodes,
+                         .place = {.robot = robot},
+                         .vision_latency_ticks = as_described.vision_latency_ms.value()},
                         seat.seat(), observers);
   scenario.run([] { return false; });
   Play played{.result = {}, .outcomes = scenario.outcomes()};

@@ -112,7 +112,7 @@ def main():
             with open(path, "w", encoding="utf-8") as text:
                 text.write(sound)
             reason = [line for line in (after.stdout + after.stderr).splitlines()
-                      if re.search("FAILED|STRIKER POLICY|compiled|but random|error|no readable", line)]
+                      if re.search("FAILED|STRIKER POLICY|compiled|but random|error|no readable|ended with status", line)]
             noticed = after.returncode != 0 and bool(reason) and (before is None or before.returncode == 0)
             good &= noticed
             print(("noticed: " if noticed else "NOT NOTICED: ") + name, flush=True)

@@ -5,6 +5,8 @@ import os
 import tempfile
 import unittest
 
+ROBOTS = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "firmware", "robots")
+
 
 class FilesCase(unittest.TestCase):
     def setUp(self):

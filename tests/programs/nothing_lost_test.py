@@ -21,6 +21,7 @@ import unittest
 import files_case
 
 BIN = sys.argv.pop(1)
+ROBOT = os.path.join(files_case.ROBOTS, "forward.toml")
 
 LINE = re.compile(r"\(\d{10}\.\d{6}\) vcan0 [0-9A-F]{3}#([0-9A-F]{2})*")
 
@@ -113,6 +114,7 @@ class Files(files_case.FilesCase):
             for name, *arguments in (("striker-sil", "kick", "--episodes", "900000", "--json"),
                                      ("striker-sil", "kick", "--episodes", "900000", "--log"),
                                      ("striker-sil", "faults", "--json"), ("striker-bus-budget", "--json"),
+                                     ("striker-robot", "check", ROBOT, "--json"),
                                      ("striker-firmware", "--in-process", "--clock", "realtime", "--json")):
                 if path == "/proc/a.json" and os.getuid() == 0:
                     continue  # root's access is not asked there
@@ -122,6 +124,7 @@ class Files(files_case.FilesCase):
 
     def test_output_that_nobody_took_is_no_success(self):
         for name, *arguments in (("striker-bus-budget",), ("striker-bus-budget", "--help"), ("striker-dbc",),
+                                 ("striker-robot", "check", ROBOT),
                                  ("striker-sil", "kick", "--episodes", "1"), ("striker-sil", "--version"),
                                  ("striker-ceiling", "--help"), ("striker-train", "--help"), ("striker-export", "--help"),
                                  ("striker-evaluate", "--help"), ("striker-experiment", "--help"),

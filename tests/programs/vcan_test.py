@@ -218,16 +218,23 @@ class Vcan(files_case.FilesCase):
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
         self.assertIn("4601 ticks: the answers of 4601 are the recorded ones, 0 differ", replayed.stdout)
 
+    def record_a_run_on_the_wall_clock(self):
+        """The frames of one that was driven: on a machine that stalls, not every one is."""
+        for _ in range(5):
+            process = firmware("realtime")
+            try:
+                result = run("striker-sil", "kick", "--bus", "can:vcan0", "--realtime", "--episodes", "2", "--log",
+                             self.file("a.log"))
+            finally:
+                stop(process)
+            self.assertIn(result.returncode, (0, NOT_DRIVEN), result.stderr)
+            recorded = read_log(self.file("a.log"))
+            if any(identifier == WHEEL_COMMAND and moves(payload) for _, identifier, payload in recorded):
+                return recorded
+        self.fail("none of 5 runs was driven")
+
     def test_a_recorded_run_on_the_wall_clock_arms_no_other_controller(self):
-        process = firmware("realtime")
-        try:
-            result = run("striker-sil", "kick", "--bus", "can:vcan0", "--realtime", "--episodes", "2", "--log",
-                         self.file("a.log"))
-        finally:
-            stop(process)
-        self.assertIn(result.returncode, (0, NOT_DRIVEN), result.stderr)
-        recorded = read_log(self.file("a.log"))
-        self.assertTrue(any(identifier == WHEEL_COMMAND and moves(payload) for _, identifier, payload in recorded))
+        recorded = self.record_a_run_on_the_wall_clock()
         with open(self.file("world.log"), "w", encoding="ascii") as stream:
             for stamp, identifier, payload in recorded:
                 if identifier not in striker_dbc.sent_by("Controller"):

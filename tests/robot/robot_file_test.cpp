@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sil/robot/robot_file.hpp"
+#include "sil/robot/description/robot_file.hpp"
 
 #include <gtest/gtest.h>
 

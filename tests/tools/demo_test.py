@@ -20,7 +20,7 @@ ROOT = sys.argv.pop()
 class Tools(files_case.FilesCase):
     def setUp(self):
         super().setUp()
-        for folder in ("tools", "path", "build/bin", "out/demo", "firmware/policy/exported"):
+        for folder in ("tools", "path", "build/bin", "out/demo", "firmware/policy/exported", "firmware/robots"):
             os.makedirs(self.file(folder))
         for name in ("demo", "test"):
             shutil.copy(os.path.join(ROOT, "tools", name), self.file(f"tools/{name}"))
@@ -29,13 +29,15 @@ class Tools(files_case.FilesCase):
         self.script("path/ctest", "")
         self.script("build/bin/striker-sil", 'echo "played $*"; : >out/demo/kick.json')
         self.file("out/demo/kick.json", "the last results")
-        self.configure(self.file("firmware/policy/exported/kick.hpp"))
+        self.configure()
 
     def script(self, name, text):
         os.chmod(self.file(name, f"#!/bin/sh\n{text}\n"), 0o755)
 
-    def configure(self, policy):
-        self.file("build/CMakeCache.txt", f"STRIKER_POLICY:FILEPATH={policy}\n")
+    def configure(self, **changes):
+        configured = {"STRIKER_POLICY": self.file("firmware/policy/exported/kick.hpp"),
+                      "STRIKER_ROBOT": self.file("firmware/robots/forward.toml"), **changes}
+        self.file("build/CMakeCache.txt", "".join(f"{name}:FILEPATH={file}\n" for name, file in configured.items()))
 
     def tool(self, name, *arguments):
         environment = {**os.environ, "PATH": self.file("path") + ":" + os.environ["PATH"]}
@@ -62,19 +64,21 @@ class Tools(files_case.FilesCase):
         with open(self.file("told"), encoding="utf-8") as stream:
             self.assertEqual(stream.readline(), "setup demo\n")
 
-    def test_the_demo_says_loudly_that_it_plays_another_policy(self):
-        self.configure("/home/somebody/my_policy.hpp")
-        result = self.tool("demo", "--bus", "inproc")
-        self.assertEqual(result.returncode, 0)
-        for word in ("NOT THE COMMITTED POLICY", "/home/somebody/my_policy.hpp", "cmake -B build -U STRIKER_POLICY"):
-            self.assertIn(word, result.stderr)
+    def test_the_demo_says_loudly_that_it_plays_another_policy_or_robot(self):
+        for what in ("POLICY", "ROBOT"):
+            self.configure(**{f"STRIKER_{what}": "/home/somebody/mine"})
+            result = self.tool("demo", "--bus", "inproc")
+            self.assertEqual(result.returncode, 0)
+            for word in (f"NOT THE COMMITTED {what}", "/home/somebody/mine", f"cmake -B build -U STRIKER_{what}"):
+                self.assertIn(word, result.stderr)
 
-    def test_the_tests_are_not_run_with_another_policy(self):
-        self.configure("/home/somebody/my_policy.hpp")
-        result = self.tool("test")
-        self.assertEqual(result.returncode, 2)
-        for word in ("/home/somebody/my_policy.hpp", "-U STRIKER_POLICY", "--build-dir"):
-            self.assertIn(word, result.stderr)
+    def test_the_tests_are_not_run_with_another_policy_or_robot(self):
+        for what in ("POLICY", "ROBOT"):
+            self.configure(**{f"STRIKER_{what}": "/home/somebody/mine"})
+            result = self.tool("test")
+            self.assertEqual(result.returncode, 2)
+            for word in ("/home/somebody/mine", f"-U STRIKER_{what}", "--build-dir"):
+                self.assertIn(word, result.stderr)
         with open(self.file("told"), encoding="utf-8") as stream:
             self.assertNotIn("--build ", stream.read())
 
@@ -102,6 +106,15 @@ class Configuration(files_case.FilesCase):
             self.assertNotEqual(result.returncode, 0, policy)
             told = " ".join(result.stderr.split())
             self.assertIn("STRIKER_POLICY", told)
+            self.assertIn(word, told)
+
+    def test_a_robot_that_is_none_is_refused_in_words(self):
+        for robot, word in (("", "is empty"), (os.path.join(ROOT, "firmware"), "no such file"), ("/none/x.toml", "no such file"),
+                            (os.path.join(ROOT, "README.md"), "is no key with a whole number")):
+            result = self.configure(f"-DSTRIKER_ROBOT={robot}")
+            self.assertNotEqual(result.returncode, 0, robot)
+            told = " ".join(result.stderr.split())
+            self.assertIn("STRIKER_ROBOT", told)
             self.assertIn(word, told)
 
     def test_without_tests_no_googletest_is_needed(self):

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sil/robot/robot_file.hpp"
+#include "sil/robot/description/robot_file.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "firmware/core/robot_ranges.hpp"
 #include "firmware/host/files.hpp"
 
 namespace striker::sil {
@@ -20,23 +19,7 @@ namespace {
 
 using core::RobotDescription;
 
-struct Key {
-  std::string_view name;
-  std::int32_t RobotDescription::*member;
-  std::int64_t least;
-  std::int64_t greatest;
-  std::optional<std::int32_t> otherwise = {};
-};
-constexpr std::array keys = {
-    Key{"body_mass_g", &RobotDescription::body_mass_g, 200, 100'000},
-    Key{"wheel_mass_g", &RobotDescription::wheel_mass_g, 1, 10'000},
-    Key{"wheel_radius_um", &RobotDescription::wheel_radius_um, 10'000, 200'000},
-    Key{"axle_length_um", &RobotDescription::axle_length_um, 40'000, 1'000'000},
-    Key{"torque_limit_mNm", &RobotDescription::torque_limit_mNm, 10, 32'000},
-    Key{"top_rim_speed_mm_s", &RobotDescription::top_rim_speed_mm_s, 100, 8'000},
-    Key{"camera_latency_ms", &RobotDescription::camera_latency_ms, 0, 50, 0},
-    Key{"command_delay_ms", &RobotDescription::command_delay_ms, 0, 50, 0},
-    Key{"tyre_friction_percent", &RobotDescription::tyre_friction_percent, 10, 1'000, 300}};
+using core::RobotKey;
 
 [[noreturn]] void fail(const std::string& file, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", file, what));
@@ -45,11 +28,11 @@ constexpr std::array keys = {
 void refuse_unknown(const toml::table& table, const std::string& file) {
   for (const auto& entry : table) {
     const toml::key& key = entry.first;
-    const auto* const known =
-        std::find_if(keys.begin(), keys.end(), [&](const Key& one) { return one.name == key.str(); });
-    if (known == keys.end()) {
+    const auto* const known = std::find_if(core::robot_keys.begin(), core::robot_keys.end(),
+                                           [&](const RobotKey& one) { return one.name == key.str(); });
+    if (known == core::robot_keys.end()) {
       std::string names;
-      for (const Key& one : keys) {
+      for (const RobotKey& one : core::robot_keys) {
         names += fmt::format("{}{}", names.empty() ? "" : ", ", one.name);
       }
       fail(file, fmt::format("line {}: '{}' is no key of a robot; there are {}", key.source().begin.line,
@@ -58,14 +41,14 @@ void refuse_unknown(const toml::table& table, const std::string& file) {
   }
 }
 
-std::int32_t value_of(const Key& key, const toml::table& table, const std::string& file) {
+std::int32_t value_of(const RobotKey& key, const toml::table& table, const std::string& file) {
   const toml::node* const node = table.get(key.name);
   if (node == nullptr) {
-    if (!key.otherwise) {
+    if (!key.may_be_left_out) {
       fail(file, fmt::format("{} is missing: give a whole number from {} to {}", key.name, key.least,
                              key.greatest));
     }
-    return *key.otherwise;
+    return RobotDescription{}.*key.member;
   }
   const auto value = node->value_exact<std::int64_t>();
   if (!value || *value < key.least || *value > key.greatest) {
@@ -84,7 +67,7 @@ RobotDescription read_robot(const std::filesystem::path& file) {
   try {
     const toml::table table = toml::parse(text, name);
     refuse_unknown(table, name);
-    for (const Key& key : keys) {
+    for (const RobotKey& key : core::robot_keys) {
       robot.*key.member = value_of(key, table, name);
     }
   } catch (const toml::parse_error& error) {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a robot's description may hold: its members by their names in a file, with their ranges. For the files
+// (sil/robot/description/robot_file.hpp), and for the robot that a build is for (firmware/loop/built_in_robot.hpp).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "firmware/core/robot_profile.hpp"
+
+namespace striker::core {
+
+struct RobotKey {
+  std::string_view name;
+  std::int32_t RobotDescription::*member;
+  std::int32_t least;
+  std::int32_t greatest;
+  bool may_be_left_out = false;  // it has its usual value then, RobotDescription's own
+};
+
+inline constexpr std::array robot_keys = {
+    RobotKey{"body_mass_g", &RobotDescription::body_mass_g, 200, 100'000},
+    RobotKey{"wheel_mass_g", &RobotDescription::wheel_mass_g, 1, 10'000},
+    RobotKey{"wheel_radius_um", &RobotDescription::wheel_radius_um, 10'000, 200'000},
+    RobotKey{"axle_length_um", &RobotDescription::axle_length_um, 40'000, 1'000'000},
+    RobotKey{"torque_limit_mNm", &RobotDescription::torque_limit_mNm, 10, 32'000},
+    RobotKey{"top_rim_speed_mm_s", &RobotDescription::top_rim_speed_mm_s, 100, 8'000},
+    RobotKey{"camera_latency_ms", &RobotDescription::camera_latency_ms, 0, 50, true},
+    RobotKey{"command_delay_ms", &RobotDescription::command_delay_ms, 0, 50, true},
+    RobotKey{"tyre_friction_percent", &RobotDescription::tyre_friction_percent, 10, 1'000, true}};
+
+[[nodiscard]] constexpr bool in_range(const RobotDescription& robot) {
+  return std::all_of(robot_keys.begin(), robot_keys.end(), [&](const RobotKey& key) {
+    return robot.*key.member >= key.least && robot.*key.member <= key.greatest;
+  });
+}
+
+static_assert(in_range(forward) && in_range(defender) && in_range(goalkeeper));
+
+}  // namespace striker::core

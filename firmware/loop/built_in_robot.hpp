@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The robot that this build's controller is for, and that the simulator plays unless told otherwise.
+//
+// The build chooses it: cmake -DSTRIKER_ROBOT=FILE.toml, one of firmware/robots or of your own. STRIKER_ROBOT_HEADER is
+// the path of the header that firmware/robots/robot_header.cmake makes of the file, as a string; without it, it is AI
+// Soccer's forward. `striker-robot check FILE` says what follows from a file, and what is wrong with one.
+#pragma once
+
+#include "firmware/core/robot_profile.hpp"
+#include "firmware/core/robot_ranges.hpp"
+
+#ifdef STRIKER_ROBOT_HEADER
+#include STRIKER_ROBOT_HEADER
+#else
+namespace striker::loop {
+
+inline constexpr core::RobotDescription built_in_description = core::forward;
+
+}  // namespace striker::loop
+#endif
+
+namespace striker::loop {
+
+static_assert(core::in_range(built_in_description),
+              "STRIKER ROBOT: a number is missing or out of range: striker-robot check FILE says which");
+
+inline constexpr core::RobotProfile built_in_robot = core::profile_of(built_in_description);
+
+static_assert(core::loops_fit(built_in_robot),
+              "STRIKER ROBOT: its wheel loops would not fit 32 bits: look at mass, radius and torque again");
+
+}  // namespace striker::loop

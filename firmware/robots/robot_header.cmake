@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+# striker_write_robot(FILE HEADER): a robot's description as a header for firmware/loop/built_in_robot.hpp. The file is
+# TOML, a key and a whole number a line (sil/robot/description/robot_file.hpp); ranges and unknown keys are left to the compiler.
+function(striker_write_robot file header)
+  file(READ "${file}" text)
+  string(REGEX REPLACE "#[^\n]*" "" text "${text}")
+  string(REPLACE "\r" "" text "${text}")
+  string(REPLACE ";" "<semicolon>" text "${text}")
+  string(REGEX REPLACE "\n" ";" lines "${text}")
+  get_filename_component(name "${file}" NAME)
+  set(known "")
+  set(assignments "")
+  set(line_number 0)
+  foreach(line IN LISTS lines)
+    math(EXPR line_number "${line_number} + 1")
+    string(STRIP "${line}" line)
+    if(line STREQUAL "")
+      continue()
+    endif()
+    if(NOT line MATCHES "^([A-Za-z0-9_]+)[ \t]*=[ \t]*(0|[1-9][0-9]*(_[0-9]+)*)$")
+      message(FATAL_ERROR "STRIKER_ROBOT: ${file}: line ${line_number}: '${line}' is no key with a whole number, as in "
+        "body_mass_g = 1_500")
+    endif()
+    set(key ${CMAKE_MATCH_1})
+    string(REPLACE "_" "" number "${CMAKE_MATCH_2}")
+    if(key IN_LIST known)
+      message(FATAL_ERROR "STRIKER_ROBOT: ${file}: line ${line_number}: ${key} stands twice")
+    endif()
+    list(APPEND known ${key})
+    string(APPEND assignments "  robot.${key} = {${number}};\n")
+  endforeach()
+  # Left alone if nothing in it would change, so that nothing is compiled again.
+  file(CONFIGURE OUTPUT "${header}" @ONLY CONTENT [[
+// Made of @name@ by firmware/robots/robot_header.cmake: change that.
+#pragma once
+
+#include "firmware/core/robot_profile.hpp"
+
+namespace striker::loop {
+
+inline constexpr core::RobotDescription built_in_description = [] {
+  core::RobotDescription robot{};
+@assignments@  return robot;
+}();
+
+}  // namespace striker::loop
+]])
+endfunction()
