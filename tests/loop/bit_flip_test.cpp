@@ -116,7 +116,8 @@ void expect_sound(const FlippedRig& from, const char* where) {
     bytes << " " << byte << " (" << count << ")";
   }
   std::printf("%s: of %zu bits %d without effect, %d a fault, %d wrong and unnoticed:%s\n", where,
-              bits / bit_step, outcome.nothing, outcome.fault, outcome.wrong_undetected, bytes.str().c_str());
+              (bits + bit_step - 1) / bit_step, outcome.nothing, outcome.fault, outcome.wrong_undetected,
+              bytes.str().c_str());
   EXPECT_EQ(outcome.unarmed_torque, 0) << where;
   EXPECT_EQ(outcome.fault_lost, 0) << where;
   EXPECT_EQ(outcome.beyond_limit, 0) << where;
