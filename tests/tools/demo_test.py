@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """tools/demo and tools/test, copied to where setting up and building are stand-ins: what they refuse, say and keep.
-tools/setup: what it takes. STRIKER_POLICY and STRIKER_TESTS: what the real build takes.
+tools/setup: what it takes. STRIKER_POLICY, STRIKER_ROBOT and STRIKER_TESTS: what the real build takes.
 Usage: demo_test.py ROOT"""
 
 import os
@@ -99,23 +99,20 @@ class Configuration(files_case.FilesCase):
         return subprocess.run(["cmake", "-S", ROOT, "-B", self.file("build"), "-G", "Ninja", *arguments], capture_output=True,
                               text=True, check=False, timeout=300)
 
-    def test_a_policy_that_is_none_is_refused_in_words(self):
-        for policy, word in (("", "is empty"), (os.path.join(ROOT, "firmware"), "is a folder"), ("/none/x.hpp", "no such header"),
-                             (os.path.join(ROOT, "README.md"), "no policy is in")):
-            result = self.configure(f"-DSTRIKER_POLICY={policy}")
-            self.assertNotEqual(result.returncode, 0, policy)
+    def assert_refused(self, name, *cases):
+        for value, word in cases:
+            result = self.configure(f"-D{name}={value}")
+            self.assertNotEqual(result.returncode, 0, value)
             told = " ".join(result.stderr.split())
-            self.assertIn("STRIKER_POLICY", told)
+            self.assertIn(name, told)
             self.assertIn(word, told)
 
-    def test_a_robot_that_is_none_is_refused_in_words(self):
-        for robot, word in (("", "is empty"), (os.path.join(ROOT, "firmware"), "no such file"), ("/none/x.toml", "no such file"),
-                            (os.path.join(ROOT, "README.md"), "is no key with a whole number")):
-            result = self.configure(f"-DSTRIKER_ROBOT={robot}")
-            self.assertNotEqual(result.returncode, 0, robot)
-            told = " ".join(result.stderr.split())
-            self.assertIn("STRIKER_ROBOT", told)
-            self.assertIn(word, told)
+    def test_a_policy_or_robot_that_is_none_is_refused_in_words(self):
+        folder, text = os.path.join(ROOT, "firmware"), os.path.join(ROOT, "README.md")
+        self.assert_refused("STRIKER_POLICY", ("", "is empty"), (folder, "is a folder"), ("/none/x.hpp", "no such header"),
+                            (text, "no policy is in"))
+        self.assert_refused("STRIKER_ROBOT", ("", "is empty"), (folder, "no such file"), ("/none/x.toml", "no such file"),
+                            (text, "is no key with a whole number"))
 
     def test_without_tests_no_googletest_is_needed(self):
         missing = "-DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON"
