@@ -107,12 +107,13 @@ class Configuration(files_case.FilesCase):
             self.assertIn(name, told)
             self.assertIn(word, told)
 
-    def test_a_policy_or_robot_that_is_none_is_refused_in_words(self):
-        folder, text = os.path.join(ROOT, "firmware"), os.path.join(ROOT, "README.md")
-        self.assert_refused("STRIKER_POLICY", ("", "is empty"), (folder, "is a folder"), ("/none/x.hpp", "no such header"),
-                            (text, "no policy is in"))
-        self.assert_refused("STRIKER_ROBOT", ("", "is empty"), (folder, "no such file"), ("/none/x.toml", "no such file"),
-                            (text, "is no key with a whole number"))
+    def test_a_policy_that_is_none_is_refused_in_words(self):
+        self.assert_refused("STRIKER_POLICY", ("", "is empty"), (os.path.join(ROOT, "firmware"), "is a folder"),
+                            ("/none/x.hpp", "no such header"), (os.path.join(ROOT, "README.md"), "no policy is in"))
+
+    def test_a_robot_that_is_none_is_refused_in_words(self):
+        self.assert_refused("STRIKER_ROBOT", ("", "is empty"), (os.path.join(ROOT, "firmware"), "no such file"),
+                            ("/none/x.toml", "no such file"), (os.path.join(ROOT, "README.md"), "is no key with a whole number"))
 
     def test_without_tests_no_googletest_is_needed(self):
         missing = "-DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON"
