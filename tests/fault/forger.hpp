@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,7 @@ class Forger {
   std::int32_t torque_mNm = 100;
   std::int32_t state = active_state;
   core::Fault fault = core::Fault::none;
+  std::optional<core::Fault> told_before;  // by another Status, earlier in the tick
   bool wheels_arrive = true;
   bool vision_arrives = true;
   bool commands_arrive = true;
@@ -106,9 +108,15 @@ class Forger {
   void say() {
     const bool armed = tick_ >= 10;
     const std::int32_t torque = armed ? torque_mNm : 0;
-    controller_.answers = {
+    controller_.answers.clear();
+    if (told_before) {
+      controller_.answers.push_back(
+          can::send(can::Status{.state = fault_state, .fault = code(*told_before)}, status_));
+    }
+    const std::vector<can::Frame> last = {
         can::send(can::Status{.state = armed ? state : standby_state, .fault = code(fault)}, status_),
         can::send(can::WheelCommand{.left_torque_mNm = torque, .right_torque_mNm = -torque}, command_)};
+    controller_.answers.insert(controller_.answers.end(), last.begin(), last.end());
     for (can::Frame& frame : controller_.answers) {
       spoil(frame);
     }

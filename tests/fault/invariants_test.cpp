@@ -136,6 +136,28 @@ TEST(Invariants, TheFirstFaultStays) {
   lost.expect(Invariant::fault_changed);
 }
 
+// A fault told in the same tick before SYNC(0) was handled, as after a stall, with or without it among the inputs.
+void tell_and_forget(Forger& run, core::Fault fault, bool began_anew) {
+  stop_with(run, core::Fault::none);
+  run.told_before = fault;
+  run.state = standby_state;
+  can::SendCounter counter;
+  run.forged = began_anew ? std::vector{can::send(can::Sync{.tick = 0}, counter)} : std::vector<can::Frame>();
+  run.run(1);
+}
+
+TEST(Invariants, AFaultToldBeforeTimeBeganAnewMayGoWithIt) {
+  Forger run;
+  tell_and_forget(run, core::Fault::frames_lost, true);
+  EXPECT_TRUE(run.invariants().violations().empty());
+  Forger same_time;
+  tell_and_forget(same_time, core::Fault::frames_lost, false);
+  same_time.expect(Invariant::fault_changed);
+  Forger stop;
+  tell_and_forget(stop, core::Fault::emergency_stop, true);
+  stop.expect(Invariant::fault_changed);
+}
+
 TEST(Invariants, AnHonestClearMayTakeTheFaultAndAnArmBringsTorqueBack) {
   Forger run;
   stop_with(run, core::Fault::vision_lost);

@@ -111,6 +111,7 @@ void Invariants::end_tick(const Snapshot& snapshot) {
     told_.reset();
     stop_tick_.reset();
   }
+  time_began_anew_ = false;
   hear_seat();
   hear_inputs();
   hear_controller();
@@ -144,8 +145,9 @@ void Invariants::hear_inputs() {
       told_tick_ = static_cast<std::uint32_t>(sync->tick);
       sync_tick_ = tick_;
     }
-    if (sync && sync->tick == 0 && told_ && told_->fault != emergency) {
-      told_.reset();  // logical time begins anew: every other fault may go
+    if (sync && sync->tick == 0) {
+      begin_time_anew();
+      time_began_anew_ = true;
     }
     if (read<can::EmergencyStop>(frame) && !stop_tick_) {
       stop_tick_ = tick_;
@@ -170,10 +172,21 @@ void Invariants::hear_controller() {
   }
 }
 
+// Every fault but a stop may go with logical time.
+void Invariants::begin_time_anew() {
+  if (told_ && told_->fault != emergency) {
+    told_.reset();
+  }
+}
+
 void Invariants::hear_status(const can::Frame& frame) {
   const auto status = read<can::Status>(frame);
   if (!status) {
     return;
+  }
+  // What the controller told in this same tick may be of frames that a stall had kept before the new beginning's.
+  if (time_began_anew_ && status->fault == no_fault) {
+    begin_time_anew();
   }
   const std::int32_t before = told_ ? told_->fault : no_fault;
   if (before != no_fault && status->fault != before && status->fault != corrupt && !clear_asked_) {

@@ -119,6 +119,7 @@ class Invariants final : public Observer {
   void hear_seat();
   void hear_inputs();
   void hear_controller();
+  void begin_time_anew();
   void hear_status(const can::Frame& frame);
   void hear_command(const can::WheelCommand& command);
   void check_freshness();
@@ -145,6 +146,7 @@ class Invariants final : public Observer {
   bool arm_asked_ = false;    // since it was last active, or disarmed
   bool clear_asked_ = false;  // since the fault was told
 
+  bool time_began_anew_ = false;  // by a SYNC(0) of this tick
   std::optional<can::Status> told_;
   std::uint32_t commands_since_fault_ = 0;
   can::WheelCommand command_;  // the last one of the tick
