@@ -101,7 +101,8 @@ void Reporter::report_status(std::uint32_t tick, const core::Actions& actions, c
                          .wrong_counter = ignored.wrong_counter,
                          .out_of_range = ignored.out_of_range,
                          .vision_ready = static_cast<std::int32_t>(actions.vision_ready),
-                         .wheels_ready = static_cast<std::int32_t>(actions.wheels_ready)},
+                         .wheels_ready = static_cast<std::int32_t>(actions.wheels_ready),
+                         .kick_over = static_cast<std::int32_t>(actions.kick_over)},
                   status_counter_));
 }
 

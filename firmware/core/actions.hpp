@@ -28,6 +28,7 @@ struct Decision {
   std::uint32_t number = 0;  // since arming, from 0
   std::uint8_t action = 0;
   bool extrapolated = false;      // decided without a new picture
+  bool over = false;              // the motion's time is past: the wheels are to stand
   std::int32_t best_q_256th = 0;  // Q of the action, in 1/256
   std::int32_t next_q_256th = 0;  // Q of the best other action
 };
@@ -43,6 +44,7 @@ struct Actions {
   OpenRequest challenge;      // in the tick in which something was asked for
   bool vision_ready = false;  // pictures are fresh, and good for a velocity: arming needs that
   bool wheels_ready = false;  // wheel speeds are fresh
+  bool kick_over = false;     // as the last decision said, while armed
 };
 
 }  // namespace striker::core

@@ -50,13 +50,6 @@
 
 namespace striker::core {
 
-struct Inputs {
-  std::uint32_t tick = 0;
-  Percepts percepts;
-  Faults port_faults = 0;  // what the port sees now: overrun, bus_off, sync_lost, ...
-  bool stop = false;       // the port stops: to standby, with torque 0
-};
-
 // Ticks may jump forward by this much; beyond it, time has gone back.
 inline constexpr std::uint32_t greatest_jump_ticks = 0x7FFFFFFF;
 
@@ -132,7 +125,8 @@ class Controller {
     WheelLoops loops;
     WheelSpeeds measured;
     WheelSpeeds set_point;  // the pilot's
-    WheelTorques torque;    // of the last command
+    std::uint32_t kick_over = 0;
+    WheelTorques torque;  // of the last command
     typename PilotType::WeightsCheck weights;
   };
   // What a picture or a decision changes: sealed apart, as most ticks do neither.
@@ -257,6 +251,7 @@ class Controller {
       pending_.state = {};
       now_.plausibility.restart();
       now_.set_point = {};
+      now_.kick_over = 0;
     }
     if (next.state != now_.supervisor.state) {
       now_.consent.close();
@@ -280,6 +275,7 @@ class Controller {
                                             pending_.state.speed_change_mm_s(now_.robot));
     const Decision decision = memory.pilot.decide(relative_state(seen), due == DecisionDue::extrapolated);
     now_.set_point = memory.pilot.set_point();
+    now_.kick_over = static_cast<std::uint32_t>(decision.over);
     return decision;
   }
 
@@ -316,6 +312,7 @@ class Controller {
     actions.challenge = now_.consent.opened_at(now_.tick);
     actions.vision_ready = conditions.vision_ready;
     actions.wheels_ready = conditions.wheels_fresh;
+    actions.kick_over = now_.supervisor.state == State::active && now_.kick_over != 0;
   }
 
   Now now_;

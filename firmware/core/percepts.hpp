@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "firmware/core/estimation/angle.hpp"
+#include "firmware/core/state.hpp"
 
 namespace striker::core {
 
@@ -74,6 +75,14 @@ struct Percepts {
   InvalidMessages invalid;
   // After a disarm nothing from before it counts: the sightings above are later than the request.
   Requests requests;
+};
+
+// All that a step of the controller is given.
+struct Inputs {
+  std::uint32_t tick = 0;
+  Percepts percepts;
+  Faults port_faults = 0;  // what the port sees now: overrun, bus_off, sync_lost, ...
+  bool stop = false;       // the port stops: to standby, with torque 0
 };
 
 }  // namespace striker::core

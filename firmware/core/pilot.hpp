@@ -9,6 +9,9 @@
 //   const Decision decision = pilot.decide(relative_state(estimator.at(tick, odometry)), false);
 //   loops.step(robot, pilot.set_point(), measured);
 //
+// A kick has `decisions_a_kick` decisions, as many as it was trained for. After them the wheels are told to stand, until
+// the next arming begins another one.
+//
 // Cost: a decision is one forward pass, whose instruction count does not depend on the input.
 #pragma once
 
@@ -18,7 +21,6 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 #include "firmware/core/actions.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
@@ -103,18 +105,17 @@ class Pilot {
     read_inputs(mirror);
     const auto q = policy::infer<policy>(inputs_);
     action_ = q.action;
-    set_point_ = {set_points[q.action].left_mm_s, set_points[q.action].right_mm_s};
-    if (mirror) {
-      std::swap(set_point_.left_mm_s, set_point_.right_mm_s);
-    }
+    const bool over = decisions_ >= policy::decisions_a_kick;
+    set_point_ = over ? WheelSpeeds{} : set_point_of(q.action, mirror);
     return {.number = decisions_++,
             .action = q.action,
             .extrapolated = extrapolated,
+            .over = over,
             .best_q_256th = q.sums[q.action] >> output_shift,
             .next_q_256th = runner_up(q) >> output_shift};
   }
 
-  // Of the last decision; 0 before the first.
+  // Of the last decision; 0 before the first, and when the kick is over.
   [[nodiscard]] const WheelSpeeds& set_point() const { return set_point_; }
 
   // Since the reset; and the last one's action.
@@ -151,6 +152,12 @@ class Pilot {
     }
     std::copy_backward(history_.begin(), history_.end() - 1, history_.end());
     history_.front() = now;
+  }
+
+  [[nodiscard]] static WheelSpeeds set_point_of(std::size_t action, bool mirror) {
+    const policy::WheelSetPoint& wanted = set_points[action];
+    return mirror ? WheelSpeeds{wanted.right_mm_s, wanted.left_mm_s}
+                  : WheelSpeeds{wanted.left_mm_s, wanted.right_mm_s};
   }
 
   void read_inputs(bool mirror) {

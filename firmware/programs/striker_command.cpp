@@ -91,12 +91,12 @@ class Controller {
 std::string describe(const Controller& controller) {
   const can::Status& status = controller.status();
   return fmt::format(
-      "state {}, fault {}{}, vision {}, wheels {}, ignored frames: {} wrong length, {} wrong CRC, {} wrong counter, {} "
+      "state {}{}, fault {}{}, vision {}, wheels {}, ignored frames: {} wrong length, {} wrong CRC, {} wrong counter, {} "
       "out of range",
-      core::name_of(controller.state()), core::name_of(static_cast<core::Fault>(status.fault)),
-      controller.is_stopped() ? ", stopped" : "", status.vision_ready != 0 ? "ready" : "not ready",
-      status.wheels_ready != 0 ? "ready" : "not ready", status.wrong_length, status.wrong_crc,
-      status.wrong_counter, status.out_of_range);
+      core::name_of(controller.state()), status.kick_over != 0 ? " (kick over)" : "",
+      core::name_of(static_cast<core::Fault>(status.fault)), controller.is_stopped() ? ", stopped" : "",
+      status.vision_ready != 0 ? "ready" : "not ready", status.wheels_ready != 0 ? "ready" : "not ready",
+      status.wrong_length, status.wrong_crc, status.wrong_counter, status.out_of_range);
 }
 
 // Why a clear after a stop may need no more than time. The controller does not tell how long it still holds.

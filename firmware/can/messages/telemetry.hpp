@@ -53,10 +53,11 @@ struct Status {
   std::int32_t out_of_range = 0;
   std::int32_t vision_ready = 0;  // 1: two fresh pictures: the controller could be armed
   std::int32_t wheels_ready = 0;  // 1: the wheel speeds are fresh
+  std::int32_t kick_over = 0;  // 1: armed, but the kick has had its decisions: the wheels are told to stand
 };
 
 template <>
-inline constexpr auto layout<Status> = Layout<Status, 8>{
+inline constexpr auto layout<Status> = Layout<Status, 9>{
     .info = {.name = "Status",
              .id = 0x100,
              .length = 8,
@@ -88,11 +89,8 @@ inline constexpr auto layout<Status> = Layout<Status, 8>{
           .maximum = 255},
          {.name = "out_of_range", .field = &Status::out_of_range, .first_bit = 48, .bits = 8, .maximum = 255},
          {.name = "vision_ready", .field = &Status::vision_ready, .first_bit = 56, .bits = 1, .maximum = 1},
-         {.name = "wheels_ready",
-          .field = &Status::wheels_ready,
-          .first_bit = 57,
-          .bits = 1,
-          .maximum = 1}}}};
+         {.name = "wheels_ready", .field = &Status::wheels_ready, .first_bit = 57, .bits = 1, .maximum = 1},
+         {.name = "kick_over", .field = &Status::kick_over, .first_bit = 58, .bits = 1, .maximum = 1}}}};
 
 // What the gate holds back at present: bits of `Safety::limits`.
 inline constexpr std::uint32_t limit_torque = 1U << 0U;
