@@ -15,11 +15,11 @@ Faults causes_in(State state, const Conditions& conditions) {
          set_if(needs_inputs && !conditions.wheels_fresh, Fault::wheel_state_lost);
 }
 
-// A clear would have to come again at once, or forget what is still wrong.
+// A clear would forget what is still wrong. A cause of this tick has been latched before this is asked.
 bool cause_lasts(Faults latched, const Conditions& conditions) {
   const Faults missing = set_if(!conditions.vision_fresh, Fault::vision_lost) |
                          set_if(!conditions.wheels_fresh, Fault::wheel_state_lost);
-  return causes_in(State::standby, conditions) != 0 || (latched & (missing | lasting_faults)) != 0;
+  return (latched & (missing | lasting_faults)) != 0;
 }
 
 // That inputs are missing may follow from something else, which is named then.

@@ -68,9 +68,10 @@ INSTANTIATE_TEST_SUITE_P(LearnerReader, WrongLearner, testing::ValuesIn(wrong),
 
 TEST(LearnerReader, TheCommittedOnesAreRead) {
   const std::filesystem::path configs = STRIKER_CONFIGS;
-  const Config kick = load_config(configs / "kick_rollout.toml");
+  const Config kick = load_config(configs / "kick.toml");
   EXPECT_EQ(kick.learner.kind, LearnerKind::rollout);
-  EXPECT_EQ(kick.environments.front().inputs, load_config(configs / "kick.toml").environments.front().inputs);
+  EXPECT_EQ(kick.environments.front().actions, load_config(configs / "kick_dqn.toml").environments.front().actions);
+  EXPECT_EQ(load_config(configs / "kick_dqn.toml").learner.kind, LearnerKind::dqn);
   const Config paper = load_config(configs / "paper_rollout.toml");
   EXPECT_EQ(paper.environments.front().inputs, rcs_inputs());
   EXPECT_EQ(paper.shape, Shape{});
