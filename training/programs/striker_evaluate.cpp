@@ -18,6 +18,7 @@
 #include "training/export/comparison/optional_json.hpp"
 #include "training/line/line_episode.hpp"
 #include "training/model/model.hpp"
+#include "training/rollout/robots.hpp"
 #include "training/run/evaluation.hpp"
 #include "training/run/model_task.hpp"
 #include "training/task/kick_environment.hpp"
@@ -78,9 +79,20 @@ int evaluate_conditions(const Options& options, const Model& model, TaskConfig t
   if (const std::string why = LineKick::unfit(task); !why.empty()) {
     throw std::runtime_error("--condition: the model's task cannot be played on a line: " + why);
   }
-  const std::vector<double> rewards = rewards_under(conditions_of(options.conditions), task, model.parameters,
-                                                    options.seed, options.episodes);
+  const std::vector<double> rewards =
+      greedy_rewards(conditions_of(options.conditions), LineKick(task), model.parameters,
+                     {.seed = options.seed, .first = 0, .episodes = options.episodes});
   const sil::MeanEstimate mean = sil::mean_estimate(rewards);
+  if (!options.json.empty()) {
+    nlohmann::ordered_json report = {{"policy", model_identity(model.parameters)},
+                                     {"conditions", options.conditions},
+                                     {"episodes", options.episodes},
+                                     {"seed", options.seed},
+                                     {"mean_reward", mean.mean},
+                                     {"standard_error", mean.standard_error}};
+    host::stamp(report);
+    host::write_file(options.json, report.dump(2) + "\n");
+  }
   fmt::print("{}: mean reward {:.3f} +- {:.3f} (95 %)\n", fmt::join(options.conditions, ", "), mean.mean,
              1.96 * mean.standard_error);
   return 0;

@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "sil/world/random_streams.hpp"
-#include "training/rollout/greedy_plays.hpp"
 #include "training/run/config.hpp"
 #include "training/task/environments.hpp"
 
@@ -26,29 +25,6 @@ double mean_reward(const TaskConfig& task, const Parameters& parameters, std::ui
       },
       environment);
   return sum / count;
-}
-
-std::vector<double> rewards_under(const Conditions& conditions, const TaskConfig& task,
-                                  const Parameters& parameters, std::uint64_t seed, int count) {
-  const LineKick kick(task);
-  const auto episodes_played = static_cast<std::size_t>(count);
-  std::vector<LineEpisode> episodes;
-  episodes.reserve(episodes_played);
-  for (int i = 0; i < count; ++i) {
-    episodes.push_back(kick.draw(seed, static_cast<std::uint64_t>(i), conditions));
-  }
-  std::vector<LinePlay> plays;
-  plays.reserve(episodes_played);
-  for (const LineEpisode& episode : episodes) {
-    plays.push_back({.kick = &kick, .episode = &episode, .robot = {}});
-  }
-  GreedyPlays(parameters.shape()).finish(parameters, plays);
-  std::vector<double> rewards;
-  rewards.reserve(episodes_played);
-  for (const LinePlay& play : plays) {
-    rewards.push_back(play.robot.reward);
-  }
-  return rewards;
 }
 
 Conditions conditions_of(const std::vector<std::string>& settings) {

@@ -17,10 +17,6 @@ namespace striker::training {
 [[nodiscard]] double mean_reward(const TaskConfig& task, const Parameters& parameters, std::uint64_t seed,
                                  std::uint64_t first_episode, int count);
 
-// The reward of each of `count` episodes of a task on a line (LineKick::unfit), numbered from 0 on, with another robot.
-[[nodiscard]] std::vector<double> rewards_under(const Conditions& conditions, const TaskConfig& task,
-                                                const Parameters& parameters, std::uint64_t seed, int count);
-
 // From settings like "mass=-0.3": keys of [randomise], as in paper.toml, each with one value. Throws std::runtime_error
 // for one that is none.
 [[nodiscard]] Conditions conditions_of(const std::vector<std::string>& settings);
