@@ -3,6 +3,7 @@
 #include "training/run/config.hpp"
 
 #include "firmware/policy/exported/kick.hpp"
+#include "firmware/policy/exported/kick_dqn.hpp"
 #include "tests/training/fixtures.hpp"
 #include "training/model/hash.hpp"
 
@@ -86,10 +87,11 @@ TEST(Config, EmptyIsThePapers) {
 
 // A configuration is known by its text's hash, which exported headers carry: the default kind of task, which
 // older texts did not name, stands in none.
-TEST(Config, TheCommittedPolicysConfigurationIsStillItsOwn) {
+TEST(Config, TheCommittedPoliciesConfigurationsAreStillTheirOwn) {
   const std::filesystem::path configs = STRIKER_CONFIGS;
   const Config kick = load_config(configs / "kick.toml");
   EXPECT_EQ(fnv1a(kick.text), policy::kick.configuration_hash);
+  EXPECT_EQ(fnv1a(load_config(configs / "kick_dqn.toml").text), policy::kick_dqn.configuration_hash);
   EXPECT_EQ(kick.environments.front().kind, TaskKind::kick);
   EXPECT_EQ(parse_config("[task]\nkind = \"kick\"\n", "f").text, parse_config("", "f").text);
 }
