@@ -8,15 +8,18 @@
 //   invalid   was valid; too many were lost, repeated, out of order or wrong
 //
 // The window holds a bit a count: each correct frame shifts it by the counter's advance and sets the newest bit,
-// so that a lost frame leaves a zero, and a counter that jumps back by one leaves fifteen. A repeated and a
-// wrong frame shift in a zero each. Frames are taken in the state valid alone: a message that comes back is
-// believed after `least_correct` steps, not after one.
+// so that a lost frame leaves a zero. A wrong frame and one that came twice, bit for bit, shift in a zero each. A counter
+// that leaps further than the window forgives, or that comes again with other data, is of a second sender, or a recording
+// beside the sender: it empties the window. Frames are taken in the state valid alone, and not right after a gap of more than
+// `greatest_step`: a message that comes back is believed after `least_correct` steps, not after one, and a foreign frame
+// ahead of the sender's counter is found out by the sender's next.
 //
 // What follows for old frames: a set of fewer than `least_correct` of them, repeated for ever in any order and at
-// any rate, has fewer than `least_correct` distinct counters and is never valid for longer than the window. A
+// any rate, has fewer than `least_correct` distinct counters and is never valid for longer than the window. Beside the
+// sender's own frames one of them is taken at most where the sender's next is due, and ends the belief with it. A
 // recording of a whole run of the counter looks like the sender itself: that is authentication's business.
 //
-// At power-on the window begins with as many ones as leave `least_first` correct steps to go: nothing is armed then.
+// At power-on the window begins with as many ones as leave `least_first` correct steps to go.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +34,16 @@ struct E2eWindow {
   std::uint8_t counts;         // at most 16
   std::uint8_t least_correct;  // of them
   std::uint8_t least_first;    // correct steps after the first frame since power-on
+  std::uint8_t greatest_step;  // of the counter, for data that is taken
 };
 
-// 1 to 10 ms messages: a quarter may be lost, 12 ms of a 1 ms message bring it back.
-inline constexpr E2eWindow fast_window = {.counts = 16, .least_correct = 12, .least_first = 3};
-// Pictures, 50 ms apart.
-inline constexpr E2eWindow slow_window = {.counts = 8, .least_correct = 6, .least_first = 2};
+// 1 to 10 ms messages: a quarter may be lost, 12 ms of a 1 ms message bring it back. What comes after a gap can wait for the
+// next.
+inline constexpr E2eWindow fast_window = {
+    .counts = 16, .least_correct = 12, .least_first = 12, .greatest_step = 1};
+// Pictures, 50 ms apart: a camera that was missed once is not to be missed twice.
+inline constexpr E2eWindow slow_window = {
+    .counts = 8, .least_correct = 6, .least_first = 2, .greatest_step = 2};
 
 constexpr E2eWindow window_for(std::uint32_t period_ms) {
   return period_ms <= 10 ? fast_window : slow_window;
@@ -45,8 +52,8 @@ constexpr E2eWindow window_for(std::uint32_t period_ms) {
 template <E2eWindow limits>
 class E2eMachine {
  public:
-  // A frame whose CRC is correct. True if its data may be taken.
-  bool take_correct(std::uint8_t counter) {
+  // A frame whose CRC is correct; `differs`, from the last one in any bit. True if its data may be taken.
+  bool take_correct(std::uint8_t counter, bool differs) {
     if (state_ == E2eState::no_data) {
       state_ = E2eState::init;
       last_ = counter;
@@ -55,9 +62,10 @@ class E2eMachine {
     }
     const std::uint32_t advance = (counter - last_) & (counter_modulus - 1U);
     last_ = counter;
-    window_ = advance == 0 ? window_ << 1U : window_ << advance | 1U;
+    const bool contradicts = advance == 0 ? differs : advance > forgiven_step;
+    window_ = contradicts ? 0 : advance == 0 ? window_ << 1U : window_ << advance | 1U;
     judge();
-    return advance != 0 && state_ == E2eState::valid;
+    return advance >= 1 && advance <= limits.greatest_step && state_ == E2eState::valid;
   }
 
   void take_wrong() {
@@ -75,6 +83,8 @@ class E2eMachine {
 
  private:
   static constexpr std::uint32_t mask = (1U << limits.counts) - 1;
+  // After a full window this one leaves just enough.
+  static constexpr std::uint32_t forgiven_step = limits.counts - limits.least_correct + 1;
   static_assert(limits.counts <= counter_modulus && limits.least_first >= 1 &&
                 limits.least_first <= limits.least_correct && limits.least_correct <= limits.counts);
 

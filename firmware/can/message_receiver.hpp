@@ -21,7 +21,9 @@ class MessageReceiver {
   // `tick` is now; the frame came `frame.age_ms` earlier. Accepted, all of `message` is replaced.
   [[nodiscard]] Verdict take(const Frame& frame, std::uint32_t tick, Message& message) {
     const std::uint32_t received_tick = tick - frame.age_ms;
-    if (heard_.ever() && static_cast<std::int32_t>(received_tick - heard_.tick()) > timeout_ticks) {
+    // A frame may be older than the last one by the ages that a frame can have: that is no silence.
+    const std::uint32_t since_last = received_tick - heard_.tick();
+    if (heard_.ever() && since_last > timeout_ticks && since_last < 0U - greatest_age_ticks) {
       machine_.forget();
     }
     Message taken;
@@ -31,7 +33,9 @@ class MessageReceiver {
       machine_.take_wrong();
       return verdict;
     }
-    if (!machine_.take_correct(counter_of(frame))) {
+    const bool differs = frame.data != last_data_;
+    last_data_ = frame.data;
+    if (!machine_.take_correct(counter_of(frame), differs)) {
       return Verdict::wrong_counter;
     }
     message = taken;
@@ -43,11 +47,13 @@ class MessageReceiver {
 
  private:
   static constexpr const MessageInfo& info = layout<Message>.info;
-  static constexpr std::int32_t timeout_ticks = info.timeout_ms;
+  static constexpr std::uint32_t timeout_ticks = info.timeout_ms;
+  static constexpr std::uint32_t greatest_age_ticks = 255;
   static_assert(timeout_ticks > 0, "a message on events has no sequence to check");
 
   E2eMachine<window_for(info.period_ms)> machine_;
   core::Freshness heard_;
+  decltype(Frame::data) last_data_{};  // of a frame with a correct CRC
 };
 
 }  // namespace striker::can

@@ -21,7 +21,7 @@ core::Order order_of(Mode mode) {
   return mode == Mode::arm ? core::Order::arm : mode == Mode::clear ? core::Order::clear : core::Order::none;
 }
 
-void request(const ModeCommand& command, core::Percepts& percepts) {
+void request(const ModeCommand& command, bool in_order, core::Percepts& percepts) {
   const auto mode = static_cast<Mode>(command.mode);
   core::Requests& requests = percepts.requests;
   if (mode == Mode::disarm) {
@@ -29,7 +29,7 @@ void request(const ModeCommand& command, core::Percepts& percepts) {
     percepts.robot.reset();
     percepts.ball.reset();
   } else if (mode == Mode::renew) {
-    requests.renew = true;
+    requests.renew = requests.renew || in_order;
   } else if (command.challenge == 0) {
     requests.asked = order_of(mode);
   } else {
@@ -75,7 +75,7 @@ void Receiver::take_frame(const Frame& frame, std::uint32_t tick, core::Percepts
   } else if (is<ModeCommand>(frame)) {
     ModeCommand command;
     if (operators(receive(frame, command), percepts)) {
-      request(command, percepts);
+      request(command, operator_order_.take_correct(counter_of(frame), true), percepts);
     }
   } else if (is<EmergencyStop>(frame)) {
     EmergencyStop stop;
@@ -85,7 +85,7 @@ void Receiver::take_frame(const Frame& frame, std::uint32_t tick, core::Percepts
   }
 }
 
-// An operator's frames are events: any counter will do, and what is wrong is remembered.
+// An operator's frames are events: any counter will do but for a renewal, and what is wrong is remembered.
 bool Receiver::operators(Verdict verdict, core::Percepts& percepts) {
   percepts.invalid.operators = percepts.invalid.operators || verdict != Verdict::accepted;
   return accepted(verdict);

@@ -73,6 +73,8 @@ class Receiver {
 
   MessageReceiver<VisionPose> pose_;
   MessageReceiver<VisionBall> ball_;
+  // Of mode commands: a renewal alone asks for nothing that is safe, and one that is repeated for ever renews nothing.
+  E2eMachine<slow_window> operator_order_;
   IgnoredFrames ignored_;
 };
 

@@ -64,9 +64,7 @@ class Controller {
 
   void step(const Inputs& inputs, Actions& actions) {
     memory_is_open_ = false;
-    if (seal_of(now_) != seal_ || (is_late() && !pending_.is_sound())) {
-      forget_corrupt_state();
-    }
+    require_sound_state();
     const Conditions conditions = sense(inputs);
     adopt(supervise(now_.supervisor, conditions));
     actions.decision = decide();
@@ -88,10 +86,10 @@ class Controller {
   }
 
   // Logical time begins again, with a controller as from boot. A stop that was pressed is kept: only a power cycle
-  // forgets it; and so is what only a reboot clears.
+  // forgets it; and so is what only a reboot clears. Memory that changed by itself is found here too.
   void begin_anew() {
-    constexpr Faults kept = lasting_faults | set_of(Fault::emergency_stop);
-    const Faults faults = now_.supervisor.faults & kept;
+    require_sound_state();
+    const Faults faults = now_.supervisor.faults & (lasting_faults | set_of(Fault::emergency_stop));
     *this = Controller(now_.robot, now_.consent.next_seed());
     if (faults != 0) {
       now_.supervisor = latch(now_.supervisor, faults);
@@ -137,6 +135,12 @@ class Controller {
 
   // Commands take time: what is on its way is part of the state. Otherwise it stays empty, and is not looked at.
   [[nodiscard]] bool is_late() const { return now_.robot.command_delay_ticks != 0; }
+
+  void require_sound_state() {
+    if (seal_of(now_) != seal_ || (is_late() && !pending_.is_sound())) {
+      forget_corrupt_state();
+    }
+  }
 
   // Nothing of it can be believed, the robot's limits included, but that it has to stand. Apart, for the stack's sake.
   [[gnu::noinline, gnu::cold]] void forget_corrupt_state() {
@@ -236,8 +240,7 @@ class Controller {
     }
   }
 
-  // Apart from its callers, as few ticks need it.
-  [[gnu::noinline]] void change_to(const Supervisor& next) {
+  [[gnu::noinline]] void change_to(const Supervisor& next) {  // few ticks need it
     if (next.fault != now_.supervisor.fault) {
       now_.fault_tick = now_.tick;
     }

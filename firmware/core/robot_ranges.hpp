@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a robot's description may hold: its members by their names in a file, with their ranges. For the files
 // (sil/robot/description/robot_file.hpp), and for the robot that a build is for (firmware/loop/built_in_robot.hpp).
+// Torque and speed end where a WheelCommand does (firmware/can/messages/drives.hpp): beyond, a frame would say less than
+// the controller reckons with.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +27,8 @@ inline constexpr std::array robot_keys = {
     RobotKey{"wheel_mass_g", &RobotDescription::wheel_mass_g, 1, 10'000},
     RobotKey{"wheel_radius_um", &RobotDescription::wheel_radius_um, 10'000, 200'000},
     RobotKey{"axle_length_um", &RobotDescription::axle_length_um, 40'000, 1'000'000},
-    RobotKey{"torque_limit_mNm", &RobotDescription::torque_limit_mNm, 10, 32'000},
-    RobotKey{"top_rim_speed_mm_s", &RobotDescription::top_rim_speed_mm_s, 100, 8'000},
+    RobotKey{"torque_limit_mNm", &RobotDescription::torque_limit_mNm, 10, 2'000},
+    RobotKey{"top_rim_speed_mm_s", &RobotDescription::top_rim_speed_mm_s, 100, 4'000},
     RobotKey{"camera_latency_ms", &RobotDescription::camera_latency_ms, 0, 50, true},
     RobotKey{"command_delay_ms", &RobotDescription::command_delay_ms, 0, 50, true},
     RobotKey{"tyre_friction_percent", &RobotDescription::tyre_friction_percent, 10, 1'000, true}};

@@ -4,7 +4,7 @@
 //
 // A drive command that moves goes out only if the gate itself saw, in frames received:
 //   an arm command that confirms the challenge which it saw go out, and since then neither disarm nor stop nor
-//   a fault of the controller's own; renewed within the dead man's time;
+//   a fault of the controller's own; renewed within the dead man's time, by commands in sequence;
 //   wheel states in sequence within `wheels_limit_ticks`, pictures in sequence within `vision_limit_ticks`.
 // Otherwise the frame is made to say torque 0, counted, and the gate stays shut until a confirmed clear: the loop
 // hands that to the controller as the fault gate_blocked. Torque, slew and set-points beyond the limits are cut to
@@ -12,7 +12,8 @@
 // What is not on the whitelist does not go out at all (whitelist.hpp).
 //
 // It shares the CRC and the message table with the receiver, and nothing else: a sequence is fresh here after a
-// streak of small steps (`Sequence`), there by a window of counts.
+// streak of small steps (`Sequence`), there by a window of counts. Of consent in one tick both think alike: the last
+// confirmation counts, a disarm beats an arm, a clear right after a stop clears nothing.
 //
 //   CommandGate<Drives> gate(limits);
 //   gate.take(frames, tick);     // received in this tick, before the controller's step
@@ -46,6 +47,7 @@ inline constexpr std::uint32_t wheels_limit_ticks = 25;
 inline constexpr std::uint32_t vision_limit_ticks = 200;
 inline constexpr std::uint32_t armed_limit_ticks = 10'100;
 inline constexpr std::uint32_t challenge_limit_ticks = 600;
+inline constexpr std::uint32_t stop_hold_ticks = 150;  // no clear so soon after a stop
 
 template <can::DriveProtocol Drives>
 class CommandGate {
@@ -53,6 +55,8 @@ class CommandGate {
   explicit constexpr CommandGate(const GateLimits& limits) : limits_(limits) {}
 
   void take(std::span<const can::Frame> frames, std::uint32_t tick) {
+    confirmation_ = {};
+    bool disarmed = false;
     for (const can::Frame& frame : frames) {
       if (Drives::owns(frame)) {
         wheels_.take(Drives::sequence(frame), tick - frame.age_ms);
@@ -61,11 +65,16 @@ class CommandGate {
       } else if (can::is<can::VisionBall>(frame)) {
         ball_.take(sequence_of<can::VisionBall>(frame), tick - frame.age_ms);
       } else if (can::is<can::EmergencyStop>(frame)) {
-        shut_ = shut_ || sequence_of<can::EmergencyStop>(frame).has_value();
+        stop(sequence_of<can::EmergencyStop>(frame).has_value(), tick);
       } else if (can::is<can::ModeCommand>(frame)) {
-        take_mode(frame, tick);
+        disarmed = take_mode(frame, tick) || disarmed;
       }
     }
+    // As the controller has it: the last confirmation of a tick counts, and a disarm beats it.
+    if (confirmation_.challenge != 0) {
+      confirm(confirmation_, tick);
+    }
+    armed_ = armed_ && !disarmed && tick - armed_tick_ <= armed_limit_ticks;
   }
 
   void check(can::FrameList& sent, std::uint32_t tick) {
@@ -86,8 +95,10 @@ class CommandGate {
   // Logical time begins anew: consent ends, a stop does not.
   void restart() {
     const bool shut = shut_;
+    const bool stopped = stopped_;
     *this = CommandGate(limits_);
     shut_ = shut;
+    stopped_ = stopped;  // held from tick 0
   }
 
   // It stopped a command, and was not cleared since.
@@ -110,19 +121,26 @@ class CommandGate {
     return can::sound_counter(frame, length, list);
   }
 
-  [[gnu::noinline]] void take_mode(const can::Frame& frame, std::uint32_t tick) {
+  void stop(bool pressed, std::uint32_t tick) {
+    shut_ = shut_ || pressed;
+    stopped_ = stopped_ || pressed;
+    stop_tick_ = pressed ? tick : stop_tick_;
+  }
+
+  // True for a disarm. A renewal counts in sequence alone: one that is repeated for ever renews nothing.
+  [[gnu::noinline]] bool take_mode(const can::Frame& frame, std::uint32_t tick) {
     can::ModeCommand command;
     if (can::receive(frame, command) != can::Verdict::accepted) {
-      return;
+      return false;
     }
+    operator_.take(can::counter_of(frame), tick);
     const auto mode = static_cast<can::Mode>(command.mode);
-    if (mode == can::Mode::disarm) {
-      armed_ = false;
-    } else if (mode == can::Mode::renew) {
+    if (mode == can::Mode::renew && operator_.goes_on()) {
       armed_tick_ = tick;
     } else if (command.challenge != 0) {
-      confirm(command, tick);
+      confirmation_ = command;
     }
+    return mode == can::Mode::disarm;
   }
 
   // A challenge is good once, and for the mode that was asked for.
@@ -133,11 +151,13 @@ class CommandGate {
     if (!fits) {
       return;
     }
-    const bool arms = command.mode == static_cast<std::int32_t>(can::Mode::arm);
-    armed_ = arms && !shut_;
-    armed_tick_ = tick;
-    shut_ = shut_ && arms;
-    blocked_since_clear_ = blocked_since_clear_ && arms;
+    if (command.mode == static_cast<std::int32_t>(can::Mode::arm)) {
+      armed_ = !shut_;
+      armed_tick_ = tick;
+    } else if (!stopped_ || tick - stop_tick_ > stop_hold_ticks) {
+      armed_ = armed_ && !shut_;
+      shut_ = stopped_ = blocked_since_clear_ = false;
+    }
   }
 
   [[nodiscard]] bool has_cause(std::uint32_t tick) const {
@@ -188,15 +208,19 @@ class CommandGate {
   }
 
   GateLimits limits_;
-  Sequence<12> wheels_;
-  Sequence<3> pose_;
-  Sequence<3> ball_;
+  Sequence<12, 4> wheels_;
+  Sequence<3, 3> pose_;
+  Sequence<3, 3> ball_;
+  Sequence<3, 3> operator_;
+  can::ModeCommand confirmation_;  // the last one of the tick
   can::Challenge challenge_;
   std::uint32_t challenge_tick_ = 0;
   std::uint32_t armed_tick_ = 0;
+  std::uint32_t stop_tick_ = 0;
   core::WheelTorques torque_;  // of the last command
   bool armed_ = false;
   bool shut_ = false;  // a stop or a blocked command: until a confirmed clear
+  bool stopped_ = false;
   bool blocked_since_clear_ = false;
   std::uint32_t active_limits_ = 0;
   std::uint32_t blocked_ = 0;

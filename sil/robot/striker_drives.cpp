@@ -32,6 +32,7 @@ void StrikerDrives::take(const can::Frame& frame, std::uint32_t tick) {
 }
 
 void StrikerDrives::report(const RimSpeeds& speeds, std::uint32_t tick, std::vector<can::Frame>& frames) {
+  command_.expire(tick, timeout_ticks - 1);
   frames.push_back(can::send(can::WheelState{.torque_cut = static_cast<std::int32_t>(cut(tick)),
                                              .left_mm_s = to_mm_s(speeds.left_m_s),
                                              .right_mm_s = to_mm_s(speeds.right_m_s)},

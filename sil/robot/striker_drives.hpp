@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The drives of Striker's own message table: WheelCommand in, WheelState out, both wheels in one frame. Commands
-// are believed as a sequence (firmware/can/e2e_state.hpp): one that is repeated drives nothing.
+// are believed as a sequence (firmware/can/e2e_state.hpp): one that is repeated drives nothing, and where two senders
+// contradict each other the torque is cut at once.
 #pragma once
 
 #include "firmware/can/message_receiver.hpp"
@@ -17,7 +18,7 @@ class StrikerDrives final : public WheelDrives {
 
   void take(const can::Frame& frame, std::uint32_t tick) override;
   [[nodiscard]] bool cut(std::uint32_t tick) const override {
-    return !command_.within(tick, timeout_ticks - 1);
+    return receiver_.invalid() || !command_.within(tick, timeout_ticks - 1);
   }
   [[nodiscard]] const WheelOrders& orders() const override { return orders_; }
   void report(const RimSpeeds& speeds, std::uint32_t tick, std::vector<can::Frame>& frames) override;

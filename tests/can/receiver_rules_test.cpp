@@ -39,7 +39,7 @@ class ReceiverRules : public testing::Test {
     return frame;
   }
   void begin() {
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 13; ++i) {
       take({picture_of_robot(), picture_of_ball(), wheel_state()});
     }
   }
@@ -109,10 +109,21 @@ TEST_F(ReceiverRules, AStopStaysPressedForItsTickWhateverFollows) {
 TEST_F(ReceiverRules, WhatIsWrongOfOperatorsIsRememberedForTheTick) {
   Frame wrong = send(ModeCommand{}, mode);
   wrong.data[0] ^= 1U;
-  const core::Percepts percepts = take({wrong, send(ModeCommand{.mode = 3}, mode)});
+  const core::Percepts percepts = take({wrong, send(ModeCommand{.mode = 0}, mode)});
   EXPECT_TRUE(percepts.invalid.operators);
-  EXPECT_TRUE(percepts.requests.renew);
+  EXPECT_TRUE(percepts.requests.disarm);
   EXPECT_FALSE(order(Mode::renew).invalid.operators);
+}
+
+TEST_F(ReceiverRules, RenewalsCountInSequenceAndNotWhenTheyAreRepeated) {
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(order(Mode::renew).requests.renew, i >= 2) << i;
+  }
+  const Frame old = send(ModeCommand{.mode = 3}, mode);
+  EXPECT_TRUE(take({old}).requests.renew);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_FALSE(take({old}).requests.renew);
+  }
 }
 
 TEST_F(ReceiverRules, InvalidPicturesAreToldAndNotTaken) {

@@ -58,5 +58,43 @@ TEST(Arming, EveryTimeBeginsAnew) {
   }
 }
 
+// The operator is dead, and something on the bus repeats what was said last.
+TEST(Arming, EndsThoughOldRenewalsAreRepeatedForEver) {
+  for (const std::size_t frames : {1U, 2U, 3U}) {
+    NodeRig rig;
+    can::SendCounter counter{.next = 5};
+    std::vector<can::Frame> old;
+    for (std::size_t i = 0; i < frames; ++i) {
+      old.push_back(can::send(can::ModeCommand{.mode = static_cast<std::int32_t>(Mode::renew)}, counter));
+    }
+    rig.arm();
+    for (std::size_t second = 0; second < 21; ++second) {
+      rig.extra.push_back(old[second % frames]);
+      rig.run(1'000);
+    }
+    EXPECT_EQ(rig.fault(), core::Fault::dead_man) << frames;
+  }
+}
+
+TEST(Arming, LastsAsLongAsAnOperatorRenewsIt) {
+  NodeRig rig;
+  rig.arm();
+  for (int second = 0; second < 60; ++second) {
+    rig.mode(Mode::renew);
+    rig.run(1'000);
+    ASSERT_EQ(rig.state(), core::State::active) << second;
+  }
+}
+
+// There is nothing to clear: neither the controller nor the gate makes a fault of it.
+TEST(Arming, AClearWhileDrivingChangesNothing) {
+  NodeRig rig;
+  rig.arm();
+  rig.mode(Mode::clear);
+  rig.run(100);
+  EXPECT_EQ(rig.state(), core::State::active);
+  EXPECT_EQ(rig.fault(), core::Fault::none);
+}
+
 }  // namespace
 }  // namespace striker::loop

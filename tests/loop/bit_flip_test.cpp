@@ -3,6 +3,7 @@
 // without being armed, no fault forgotten, no torque beyond the limit, and no wrong torque that nobody notices.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -191,6 +192,56 @@ TEST(BitFlip, StoppedItStaysStopped) {
   }
   ASSERT_EQ(rig.state(), State::fault);
   expect_sound(rig, "stopped");
+}
+
+// After a restart of logical time a controller is in a fault, or does what one does whose memory never changed.
+void expect_restart_sound(const FlippedRig& from, bool arms) {
+  const auto after_restart = [arms](FlippedRig& rig) {
+    rig.answer({.number = 0, .frames = {}, .restart = true});
+    std::vector<Seen> seen;
+    rig.run(200);
+    if (arms) {
+      rig.mode(can::Mode::arm);
+    }
+    for (int i = 0; i < 60; ++i) {
+      rig.live();
+      seen.push_back(look(rig));
+    }
+    return seen;
+  };
+  FlippedRig honest = from;
+  const std::vector<Seen> gold = after_restart(honest);
+  int changed = 0;
+  int faults = 0;
+  for (std::size_t bit = 0; bit < bits; bit += bit_step) {
+    FlippedRig rig = from;
+    rig.memory()[bit / 8] ^= static_cast<unsigned char>(1U << (bit % 8));
+    const std::vector<Seen> seen = after_restart(rig);
+    const bool stays_down = std::all_of(seen.begin(), seen.end(), [](const Seen& one) {
+      return one.state == State::fault && one.left_mNm == 0 && one.right_mNm == 0;
+    });
+    const bool same =
+        std::equal(seen.begin(), seen.end(), gold.begin(), [](const Seen& one, const Seen& other) {
+          return one.state == other.state && one.left_mNm == other.left_mNm &&
+                 one.right_mNm == other.right_mNm;
+        });
+    changed += !stays_down && !same ? 1 : 0;
+    faults += stays_down ? 1 : 0;
+  }
+  EXPECT_EQ(changed, 0);
+  EXPECT_GT(faults, 100);
+}
+
+TEST(BitFlip, BeforeTimeBeginsAnewItIsFoundThere) {
+  FlippedRig rig = driving(60);
+  expect_restart_sound(rig, true);
+}
+
+TEST(BitFlip, BeforeTimeBeginsAnewItForgetsNoStop) {
+  FlippedRig rig = driving(60);
+  rig.stop();
+  rig.run(300);
+  expect_restart_sound(rig, false);
 }
 
 // The byte that holds the state, with every value that it could take.

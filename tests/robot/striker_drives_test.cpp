@@ -92,5 +92,60 @@ TEST(StrikerDrives, AControllerThatComesBackIsBelievedAfterTwelveCommandsFromAny
   }
 }
 
+// Stated from outside: whoever repeats old commands beside a controller that says torque 0 in every tick moves nothing.
+TEST(StrikerDrives, OldCommandsBesideASenderWhoSaysZeroDriveNothing) {
+  for (std::size_t frames = 1; frames <= 5; ++frames) {
+    for (std::uint32_t period = 1; period <= 60; ++period) {
+      for (std::uint32_t phase = 0; phase < period; phase += 1 + period / 16) {
+        Driven driven;
+        std::vector<can::Frame> old;
+        for (std::size_t i = 0; i < frames; ++i) {
+          old.push_back(driven.command(400));
+        }
+        std::size_t next = 0;
+        std::uint32_t driven_ticks = 0;
+        for (std::uint32_t tick = 100; tick < 700; ++tick) {
+          const bool first = tick % 2 == 0;  // before the sender's frame, or behind it
+          const bool comes = tick % period == phase;
+          if (comes && first) {
+            driven.drives.take(old[next++ % frames], tick);
+          }
+          driven.drives.take(driven.command(0), tick);
+          if (comes && !first) {
+            driven.drives.take(old[next++ % frames], tick);
+          }
+          const bool drives = !driven.drives.cut(tick) && driven.drives.orders()[0].torque_Nm != 0.0;
+          driven_ticks += drives && tick > 130 ? 1 : 0;
+        }
+        ASSERT_EQ(driven_ticks, 0U) << frames << " frames every " << period << " ms at " << phase;
+      }
+    }
+  }
+}
+
+TEST(StrikerDrives, OldCommandsAtPowerOnDriveNothing) {
+  for (std::size_t frames = 1; frames <= 11; ++frames) {
+    Driven recorded;
+    std::vector<can::Frame> old;
+    for (std::size_t i = 0; i < frames; ++i) {
+      old.push_back(recorded.command(400));
+    }
+    StrikerDrives drives;
+    for (std::uint32_t tick = 0; tick < 1'000; ++tick) {
+      drives.take(old[tick % frames], tick);
+      ASSERT_TRUE(drives.cut(tick)) << frames << " frames, tick " << tick;
+    }
+  }
+}
+
+TEST(StrikerDrives, NothingComesBackWhenTicksWrap) {
+  Driven driven;
+  std::vector<can::Frame> frames;
+  driven.drives.report({}, 150, frames);
+  for (std::uint32_t tick = 95; tick < 115; ++tick) {
+    EXPECT_TRUE(driven.drives.cut(tick)) << "2^32 ticks later";
+  }
+}
+
 }  // namespace
 }  // namespace striker::sil

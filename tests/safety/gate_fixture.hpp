@@ -11,6 +11,8 @@
 
 namespace striker::safety {
 
+inline constexpr std::int32_t disarm = static_cast<std::int32_t>(can::Mode::disarm);
+inline constexpr std::int32_t renew = static_cast<std::int32_t>(can::Mode::renew);
 inline constexpr std::int32_t arm = static_cast<std::int32_t>(can::Mode::arm);
 inline constexpr std::int32_t clear = static_cast<std::int32_t>(can::Mode::clear);
 inline constexpr can::WheelCommand some_command = {.left_torque_mNm = 100, .right_torque_mNm = -100};

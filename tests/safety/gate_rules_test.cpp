@@ -78,7 +78,7 @@ TEST_F(GateRules, AChallengeIsGoodOnceForItsModeAndInTime) {
 TEST_F(GateRules, AChallengeLastsItsTime) {
   for (const std::uint32_t wait : {600U, 601U}) {
     SCOPED_TRACE(wait);
-    confirm(clear);
+    order(disarm, 0);
     challenge(arm, 5);
     feed(wait);
     order(arm, 5);
@@ -142,8 +142,10 @@ TEST_F(GateRules, InputsAreAsOldAsTheyAre) {
 
 TEST_F(GateRules, BeingArmedEndsAndIsRenewed) {
   drive();
-  feed(10'000);
-  order(static_cast<std::int32_t>(can::Mode::renew), 0);
+  for (int renewal = 0; renewal < 4; ++renewal) {
+    feed(2'500);
+    order(renew, 0);
+  }
   feed(10'100);
   EXPECT_TRUE(moves());
   feed();

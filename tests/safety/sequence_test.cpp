@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <vector>
 
 namespace striker::safety {
@@ -10,7 +11,7 @@ namespace {
 
 // Takes these steps of the counter, one a tick, after the counter 0 at tick 0. A step of 16 is a wrong frame.
 bool is_fresh_after(const std::vector<std::uint32_t>& steps) {
-  Sequence<3> sequence;
+  Sequence<3, 3> sequence;
   std::uint32_t counter = 0;
   std::uint32_t tick = 0;
   sequence.take(0, tick);
@@ -30,7 +31,8 @@ TEST(Sequence, IsFreshAfterAStreakOfSmallSteps) {
   EXPECT_FALSE(is_fresh_after({}));
   EXPECT_FALSE(is_fresh_after({1, 1}));
   EXPECT_TRUE(is_fresh_after({1, 1, 1}));
-  EXPECT_TRUE(is_fresh_after({3, 3, 3, 3, 3, 3, 3}));
+  EXPECT_TRUE(is_fresh_after({2, 2, 2, 2, 2, 2, 2}));
+  EXPECT_FALSE(is_fresh_after({3, 3, 3, 3, 3, 3, 3})) << "two of three are missing";
 }
 
 TEST(Sequence, ARepeatedAJumpingOrAWrongFrameBreaksTheStreak) {
@@ -42,7 +44,7 @@ TEST(Sequence, ARepeatedAJumpingOrAWrongFrameBreaksTheStreak) {
 }
 
 TEST(Sequence, AWrongFrameDoesNotMoveTheCounter) {
-  Sequence<1> sequence;
+  Sequence<1, 3> sequence;
   sequence.take(0, 0);
   sequence.take(5, 1);
   sequence.take(std::nullopt, 2);
@@ -51,12 +53,38 @@ TEST(Sequence, AWrongFrameDoesNotMoveTheCounter) {
 }
 
 TEST(Sequence, FreshLastsItsLimitFromWhenItWasReceived) {
-  Sequence<1> sequence;
+  Sequence<1, 3> sequence;
   EXPECT_FALSE(sequence.fresh(0, 1000)) << "nothing came";
   sequence.take(0, 10);
   sequence.take(1, 11);
   EXPECT_TRUE(sequence.fresh(36, 25));
   EXPECT_FALSE(sequence.fresh(37, 25));
+}
+
+// Every set of so few counters, in rising order, for ever: by count, not by the rule.
+TEST(Sequence, NoSetOfElevenOldFramesOrFewerStaysFresh) {
+  for (std::uint32_t set = 1; set < 1U << 16U; ++set) {
+    if (std::popcount(set) > 11) {
+      continue;
+    }
+    Sequence<12, 4> sequence;
+    std::uint32_t tick = 0;
+    for (int i = 0; i < 40; ++i) {
+      sequence.take(static_cast<std::uint8_t>(i % 16), ++tick);
+    }
+    ASSERT_TRUE(sequence.fresh(tick, 0));
+    std::uint32_t last_fresh = tick;
+    const std::uint32_t begin = tick;
+    for (int round = 0; round < 8; ++round) {
+      for (std::uint8_t counter = 0; counter < 16; ++counter) {
+        if ((set >> counter & 1U) != 0) {
+          sequence.take(counter, ++tick);
+          last_fresh = sequence.fresh(tick, 0) ? tick : last_fresh;
+        }
+      }
+    }
+    ASSERT_LE(last_fresh - begin, 24U) << set;
+  }
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 //   wheel_mass_g = 120              each; 1 to 10,000
 //   wheel_radius_um = 50_000        10,000 to 200,000
 //   axle_length_um = 200_000        between the wheels' centres; 40,000 to 1,000,000
-//   torque_limit_mNm = 600          of each wheel; 10 to 32,000
-//   top_rim_speed_mm_s = 1_500      100 to 8,000
+//   torque_limit_mNm = 600          of each wheel; 10 to 2,000
+//   top_rim_speed_mm_s = 1_500      100 to 4,000
 //   camera_latency_ms = 35          0 to 50; left out: 0
 //   command_delay_ms = 20           0 to 50; left out: 0
 //   tyre_friction_percent = 80      10 to 1,000; left out: 300, AI Soccer's
