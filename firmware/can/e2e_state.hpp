@@ -10,14 +10,15 @@
 // The window holds a bit a count: each correct frame shifts it by the counter's advance and sets the newest bit,
 // so that a lost frame leaves a zero. A wrong frame and one that came twice, bit for bit, shift in a zero each. A counter
 // that leaps further than the window forgives, or that comes again with other data, is of a second sender, or a recording
-// beside the sender: it empties the window. Frames are taken in the state valid alone, and not right after a gap of more than
+// beside the sender: a contradiction, which empties the window, and only `steps_alone` correct steps without another one
+// bring belief back. Frames are taken in the state valid alone, and not right after a gap of more than
 // `greatest_step`: a message that comes back is believed after `least_correct` steps, not after one, and a foreign frame
 // ahead of the sender's counter is found out by the sender's next.
 //
 // What follows for old frames: a set of fewer than `least_correct` of them, repeated for ever in any order and at
 // any rate, has fewer than `least_correct` distinct counters and is never valid for longer than the window. Beside the
-// sender's own frames one of them is taken at most where the sender's next is due, and ends the belief with it. A
-// recording of a whole run of the counter looks like the sender itself: that is authentication's business.
+// sender's own frames one of them is taken only just before the sender's next, which contradicts it: its data stands for
+// one of the sender's periods, and then not again for `steps_alone` of them. A recording of a whole run of the counter looks like the sender itself: that is authentication's business.
 //
 // At power-on the window begins with as many ones as leave `least_first` correct steps to go.
 #pragma once
@@ -35,15 +36,16 @@ struct E2eWindow {
   std::uint8_t least_correct;  // of them
   std::uint8_t least_first;    // correct steps after the first frame since power-on
   std::uint8_t greatest_step;  // of the counter, for data that is taken
+  std::uint8_t steps_alone;    // correct steps after a contradiction
 };
 
 // 1 to 10 ms messages: a quarter may be lost, 12 ms of a 1 ms message bring it back. What comes after a gap can wait for the
 // next.
 inline constexpr E2eWindow fast_window = {
-    .counts = 16, .least_correct = 12, .least_first = 12, .greatest_step = 1};
+    .counts = 16, .least_correct = 12, .least_first = 12, .greatest_step = 1, .steps_alone = 100};
 // Pictures, 50 ms apart: a camera that was missed once is not to be missed twice.
 inline constexpr E2eWindow slow_window = {
-    .counts = 8, .least_correct = 6, .least_first = 2, .greatest_step = 2};
+    .counts = 8, .least_correct = 6, .least_first = 2, .greatest_step = 2, .steps_alone = 6};
 
 constexpr E2eWindow window_for(std::uint32_t period_ms) {
   return period_ms <= 10 ? fast_window : slow_window;
@@ -57,13 +59,20 @@ class E2eMachine {
     if (state_ == E2eState::no_data) {
       state_ = E2eState::init;
       last_ = counter;
+      follows_ = true;
       window_ = (1U << (limits.least_correct - limits.least_first)) - 1;
       return false;
     }
-    const std::uint32_t advance = (counter - last_) & (counter_modulus - 1U);
+    const std::uint32_t advance = follows_ ? (counter - last_) & (counter_modulus - 1U) : 1;
     last_ = counter;
-    const bool contradicts = advance == 0 ? differs : advance > forgiven_step;
-    window_ = contradicts ? 0 : advance == 0 ? window_ << 1U : window_ << advance | 1U;
+    follows_ = true;
+    if (advance == 0 ? differs : advance > forgiven_step) {
+      window_ = 0;
+      suspect_steps_ = limits.steps_alone;
+    } else {
+      window_ = advance == 0 ? window_ << 1U : window_ << advance | 1U;
+      suspect_steps_ -= advance != 0 && suspect_steps_ != 0 ? 1U : 0U;
+    }
     judge();
     return advance >= 1 && advance <= limits.greatest_step && state_ == E2eState::valid;
   }
@@ -76,6 +85,7 @@ class E2eMachine {
   // Nothing came within the message's time-out: what comes next has to earn its belief anew.
   void forget() {
     window_ = 0;
+    follows_ = false;
     state_ = state_ == E2eState::no_data ? E2eState::no_data : E2eState::init;
   }
 
@@ -90,7 +100,7 @@ class E2eMachine {
 
   void judge() {
     window_ &= mask;
-    const bool enough = ones(window_) >= limits.least_correct;
+    const bool enough = suspect_steps_ == 0 && ones(window_) >= limits.least_correct;
     if (enough && state_ != E2eState::no_data) {
       state_ = E2eState::valid;
     } else if (state_ == E2eState::valid) {
@@ -107,7 +117,9 @@ class E2eMachine {
   }
 
   std::uint32_t window_ = 0;
+  std::uint32_t suspect_steps_ = 0;  // to go since a contradiction
   std::uint8_t last_ = 0;
+  bool follows_ = false;  // there is a last one to compare with: none from before a silence
   E2eState state_ = E2eState::no_data;
 };
 
