@@ -42,10 +42,13 @@ struct E2eWindow {
 // 1 to 10 ms messages: a quarter may be lost, 12 ms of a 1 ms message bring it back. What comes after a gap can wait for the
 // next.
 inline constexpr E2eWindow fast_window = {
+    .counts = 16, .least_correct = 12, .least_first = 12, .greatest_step = 1, .steps_alone = 12};
+// Of commands, as drives see them: what an old one does beside a controller that says 0 is to be nothing, on the average.
+inline constexpr E2eWindow command_window = {
     .counts = 16, .least_correct = 12, .least_first = 12, .greatest_step = 1, .steps_alone = 100};
-// Pictures, 50 ms apart: a camera that was missed once is not to be missed twice.
+// Pictures, 50 ms apart: a camera that was missed once or twice is not to be missed once more.
 inline constexpr E2eWindow slow_window = {
-    .counts = 8, .least_correct = 6, .least_first = 2, .greatest_step = 2, .steps_alone = 6};
+    .counts = 8, .least_correct = 6, .least_first = 2, .greatest_step = 3, .steps_alone = 6};
 
 constexpr E2eWindow window_for(std::uint32_t period_ms) {
   return period_ms <= 10 ? fast_window : slow_window;

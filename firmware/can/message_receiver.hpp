@@ -15,7 +15,7 @@
 
 namespace striker::can {
 
-template <class Message>
+template <class Message, E2eWindow window = window_for(layout<Message>.info.period_ms)>
 class MessageReceiver {
  public:
   // `tick` is now; the frame came `frame.age_ms` earlier. Accepted, all of `message` is replaced.
@@ -51,7 +51,7 @@ class MessageReceiver {
   static constexpr std::uint32_t greatest_age_ticks = 255;
   static_assert(timeout_ticks > 0, "a message on events has no sequence to check");
 
-  E2eMachine<window_for(info.period_ms)> machine_;
+  E2eMachine<window> machine_;
   core::Freshness heard_;
   decltype(Frame::data) last_data_{};  // of a frame with a correct CRC
 };

@@ -27,7 +27,7 @@ class StrikerDrives final : public WheelDrives {
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
  private:
-  can::MessageReceiver<can::WheelCommand> receiver_;
+  can::MessageReceiver<can::WheelCommand, can::command_window> receiver_;
   can::SendCounter send_counter_;
   WheelOrders orders_;
   core::Freshness command_;  // by when it was received

@@ -110,6 +110,7 @@ void compare(std::uint32_t seed) {
 TEST(E2eRules, FollowsItsRules) {
   for (std::uint32_t seed = 0; seed < 400; ++seed) {
     compare<fast_window>(seed);
+    compare<command_window>(seed);
     compare<slow_window>(seed);
   }
 }
@@ -145,8 +146,9 @@ TEST(E2eRules, FastMessagesHaveTheLongWindow) {
   EXPECT_EQ(fast_window.least_correct, 12);
   EXPECT_EQ(fast_window.least_first, 12);
   EXPECT_EQ(fast_window.greatest_step, 1);
-  EXPECT_EQ(slow_window.greatest_step, 2);
-  EXPECT_EQ(fast_window.steps_alone, 100);
+  EXPECT_EQ(slow_window.greatest_step, 3);
+  EXPECT_EQ(fast_window.steps_alone, 12);
+  EXPECT_EQ(command_window.steps_alone, 100);
   EXPECT_EQ(slow_window.steps_alone, 6);
   EXPECT_EQ(slow_window.least_correct, 6);
   EXPECT_EQ(slow_window.least_first, 2);
