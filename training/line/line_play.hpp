@@ -24,10 +24,11 @@ struct LineDrive {
   // Forward, stop, backward: both wheels' (paper, section IV.A).
   std::array<double, 3> set_points_m_s;
 
-  // The most that the speed changes by in a physics step: in whole mm/s the wheels' gain, and what damping takes beside
-  // it when the robot reverses.
+  // The most that the speed changes by in a physics step: the wheels' gain, and what damping takes beside it when the
+  // robot reverses, each to the next mm/s.
   [[nodiscard]] double most_gain_m_s() const {
-    return std::ceil(1e3 * (gain_limit_m_s + (1.0 - sil::kept_in_10_ms) * top_speed_m_s)) / 1e3;
+    return (std::ceil(1e3 * gain_limit_m_s) + std::ceil(1e3 * (1.0 - sil::kept_in_10_ms) * top_speed_m_s)) /
+           1e3;
   }
 };
 
