@@ -161,6 +161,7 @@ Config load_config(const std::filesystem::path& file, const std::vector<std::str
 
 std::vector<std::string> robot_changes(const core::RobotDescription& robot) {
   std::vector<std::string> changes;
+  changes.reserve(core::robot_keys.size());
   for (const core::RobotKey& key : core::robot_keys) {
     changes.push_back(fmt::format("robot.{}={}", key.name, robot.*key.member));
   }
