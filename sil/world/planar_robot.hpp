@@ -82,10 +82,16 @@ void step(PlanarRobot& robot, const PlanarModel& model, const WheelServos& servo
   return std::min(servo.torque_ceiling_Nm / model.wheel_radius_m, model.grip_N);
 }
 
-// Straight ahead, both wheels alike: the speed that the body moves with in this step, before damping.
+// Straight ahead, both wheels alike: the most that the body's speed changes by in a step, before damping.
+[[nodiscard]] constexpr double straight_gain_limit_m_s(const PlanarModel& model, const WheelServo& servo,
+                                                       double step_s) {
+  return step_s * 2.0 * rim_force_limit_N(model, servo) / model.mass_kg;
+}
+
+// The speed that it moves with in this step.
 [[nodiscard]] constexpr double straight_speed_m_s(double speed_m_s, const WheelServo& servo, double step_s,
                                                   const PlanarModel& model = planar_forward) {
-  const double most = step_s * 2.0 * rim_force_limit_N(model, servo) / model.mass_kg;
+  const double most = straight_gain_limit_m_s(model, servo, step_s);
   return speed_m_s + std::clamp(servo.rim_speed_m_s - speed_m_s, -most, most);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 // What comes of these actions from the start on.
 template <typename ActionOf>
-FoundSequence played(const BallTrack& track, const ActionOf& action_of) {
+FoundSequence played(const LineDrive& drive, const BallTrack& track, const ActionOf& action_of) {
   FoundSequence found;
   LineState robot;
   for (int step = 0; step < task_steps; ++step) {
@@ -23,21 +23,21 @@ FoundSequence played(const BallTrack& track, const ActionOf& action_of) {
       break;
     }
     found.actions[static_cast<std::size_t>(decision)] = action;
-    advance(robot, line_set_points_m_s[action]);
+    advance(robot, drive.set_points_m_s[action], drive.gain_limit_m_s);
   }
   return found;
 }
 
 // What the search has to beat: the better, the more branches it cuts. Without any contact the ball must be
 // let by: one of the three actions alone does that.
-FoundSequence first_guess(const BallTrack& track, double margin_m) {
-  const PlanValue value = best_plan(track, {}, sil::kick_decisions, margin_m);
+FoundSequence first_guess(const LineDrive& drive, const BallTrack& track, double margin_m) {
+  const PlanValue value = best_plan(drive, track, {}, sil::kick_decisions, margin_m);
   if (value.contact && value.reward > no_contact_reward) {
-    return played(track, [&](int decision) { return value.plan.action(decision); });
+    return played(drive, track, [&](int decision) { return value.plan.action(decision); });
   }
   FoundSequence found;
   for (const int action : {1, 0, 2}) {
-    found = played(track, [&](int) { return action; });
+    found = played(drive, track, [&](int) { return action; });
     if (found.contact_step < 0) {
       break;
     }
@@ -47,12 +47,14 @@ FoundSequence first_guess(const BallTrack& track, double margin_m) {
 
 }  // namespace
 
-CeilingSearch::CeilingSearch(const Reachable& reachable) : reachable_(&reachable), cells_(reachable.grid()) {}
+CeilingSearch::CeilingSearch(const Reachable& reachable)
+    : reachable_(&reachable), drive_(reachable.drive()), cells_(reachable.grid()) {}
 
 // From where, and from what speed on, a contact in any later step can be reached that pays more than
 // `to_beat`.
 CeilingSearch::Needs CeilingSearch::needs(int decision, double to_beat) const {
   constexpr double none = std::numeric_limits<double>::infinity();
+  const double most_gain_m_s = drive_.most_gain_m_s();
   Needs needs{.low_m = none, .high_m = -none, .least_speed_m_s = none};
   const int now = decision * steps_per_decision;
   for (int step = std::max(now, track_.first); step < track_.end; ++step) {
@@ -65,10 +67,10 @@ CeilingSearch::Needs CeilingSearch::needs(int decision, double to_beat) const {
     const int waited = step / steps_per_decision;
     const double speed_m_s =
         (to_beat - official.waiting_reward * waited - angle_at_most) / official.speed_reward_s_m;
-    if (speed_m_s > top_speed_m_s) {
+    if (speed_m_s > drive_.top_speed_m_s) {
       continue;
     }
-    const double way_m = top_speed_m_s * physics_step_s * (step - now);
+    const double way_m = drive_.top_speed_m_s * physics_step_s * (step - now);
     needs.low_m = std::min(needs.low_m, track_.x_m[n] - track_.reach_m[n] - way_m);
     needs.high_m = std::max(needs.high_m, track_.x_m[n] + track_.reach_m[n] + way_m);
     needs.least_speed_m_s = std::min(needs.least_speed_m_s, speed_m_s - most_gain_m_s * (step - now));
@@ -118,7 +120,7 @@ void CeilingSearch::grow(int decision, std::uint32_t index, std::uint8_t action,
       return;
     }
     branch.safe = branch.safe && depth < -safe_margin_m;
-    advance(branch.state, line_set_points_m_s[action]);
+    advance(branch.state, drive_.set_points_m_s[action], drive_.gain_limit_m_s);
   }
   if (!next.met_by(branch.state)) {
     return;
@@ -139,7 +141,7 @@ void CeilingSearch::expand(int decision) {
   cells_.clear();
   const auto count = static_cast<std::uint32_t>(levels_[static_cast<std::size_t>(decision)].size());
   for (std::uint32_t branch = 0; branch < count; ++branch) {
-    for (std::size_t action = 0; action < line_set_points_m_s.size(); ++action) {
+    for (std::size_t action = 0; action < drive_.set_points_m_s.size(); ++action) {
       grow(decision, branch, static_cast<std::uint8_t>(action), next);
     }
   }
@@ -162,14 +164,14 @@ void CeilingSearch::trace(FoundSequence& found, const Contact& contact) const {
 
 Ceiling CeilingSearch::search(const sil::KickStart& start) {
   track_ = ball_track(start);
-  ceiling_ = {.best = first_guess(track_, 0.0), .safe = first_guess(track_, safe_margin_m)};
+  ceiling_ = {.best = first_guess(drive_, track_, 0.0), .safe = first_guess(drive_, track_, safe_margin_m)};
   best_ = {};
   safe_ = {};
   // The robot must be able to be there by then.
   int first = track_.first;
   const auto out_of_reach = [this](int step) {
     const auto n = static_cast<std::size_t>(step);
-    return track_.reach_m[n] < std::abs(track_.x_m[n]) - top_speed_m_s * physics_step_s * step;
+    return track_.reach_m[n] < std::abs(track_.x_m[n]) - drive_.top_speed_m_s * physics_step_s * step;
   };
   while (first < track_.end && out_of_reach(first)) {
     ++first;

@@ -75,6 +75,7 @@ class CeilingSearch {
   void trace(FoundSequence& found, const Contact& contact) const;
 
   const Reachable* reachable_;
+  LineDrive drive_;
   CellTable cells_;
   std::array<std::vector<Branch>, sil::kick_decisions + 1> levels_;
   BallTrack track_{};

@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "firmware/core/robot_ranges.hpp"
 #include "firmware/host/version.hpp"
 #include "training/ceiling/ceiling_figures.hpp"
 
@@ -70,6 +71,9 @@ std::string ceiling_json(const CeilingOptions& options, const std::vector<Ceilin
                                    {"contact_possible", figures.contact_possible},
                                    {"world", world_name(options.replay)},
                                    {"found_again", figures.found_again}};
+  for (const core::RobotKey& key : core::robot_keys) {
+    report["robot"][std::string(key.name)] = options.grid.robot.*key.member;
+  }
   for (const auto& [name, summary] : figures.replays) {
     report["replay"][name] = json_of(summary, mean);
   }

@@ -48,7 +48,7 @@ std::vector<CeilingEpisode> run_ceiling(const CeilingOptions& options, const Rea
   const auto work = [&](const std::stop_token& stopped) {
     try {
       CeilingSearch search(reachable);
-      KickEnvironment env({.physics = options.replay, .pose = options.pose});
+      KickEnvironment env({.robot = reachable.grid().robot, .physics = options.replay, .pose = options.pose});
       for (int i = next++; i < options.episodes && !stopped.stop_requested(); i = next++) {
         const auto number = static_cast<std::size_t>(i);
         episodes[number] = run_episode(options, number, search, env);

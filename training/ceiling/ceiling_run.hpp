@@ -20,7 +20,7 @@ struct CeilingOptions {
   Physics replay = Physics::planar;  // where the found actions, and the rivals, are played
   bool rivals = false;
   int jobs = 1;
-  LineGrid grid = {};
+  LineGrid grid = {};  // that of the reachable states, whose robot replays and rivals have
 };
 
 struct CeilingEpisode {

@@ -6,24 +6,26 @@
 namespace striker::training {
 
 std::size_t LineGrid::rows() const {
-  return static_cast<std::size_t>(2.0 * farthest_m / position_cell_m) + 2;
+  return static_cast<std::size_t>(2.0 * farthest_m() / position_cell_m) + 2;
 }
 
 std::size_t LineGrid::columns() const {
-  return static_cast<std::size_t>(2.0 * top_speed_m_s / speed_cell_m_s) + 2;
+  return static_cast<std::size_t>(2.0 * top_speed_m_s() / speed_cell_m_s) + 2;
 }
 
 std::size_t LineGrid::row(double position_m) const {
-  const double kept_m = std::clamp(position_m, -farthest_m, farthest_m);
-  return static_cast<std::size_t>((kept_m + farthest_m) / position_cell_m);
+  const double end_m = farthest_m();
+  const double kept_m = std::clamp(position_m, -end_m, end_m);
+  return static_cast<std::size_t>((kept_m + end_m) / position_cell_m);
 }
 
 std::size_t LineGrid::cell(const LineState& state) const {
-  const auto column = static_cast<std::size_t>((state.speed_m_s + top_speed_m_s) / speed_cell_m_s);
+  const auto column = static_cast<std::size_t>((state.speed_m_s + top_speed_m_s()) / speed_cell_m_s);
   return row(state.position_m) * columns() + column;
 }
 
-Reachable::Reachable(const LineGrid& grid) : grid_(grid), levels_(sil::kick_decisions) {
+Reachable::Reachable(const LineGrid& grid)
+    : grid_(grid), drive_(line_drive(grid.robot)), levels_(sil::kick_decisions) {
   CellTable cells(grid);
   levels_[0].push_back({});
   for (std::size_t level = 1; level < levels_.size(); ++level) {
@@ -31,11 +33,11 @@ Reachable::Reachable(const LineGrid& grid) : grid_(grid), levels_(sil::kick_deci
     std::vector<LineNode>& now = levels_[level];
     cells.clear();
     for (std::uint32_t parent = 0; parent < before.size(); ++parent) {
-      for (std::size_t action = 0; action < line_set_points_m_s.size(); ++action) {
+      for (std::size_t action = 0; action < drive_.set_points_m_s.size(); ++action) {
         LineNode node{
             .state = before[parent].state, .parent = parent, .action = static_cast<std::uint8_t>(action)};
         for (int i = 0; i < steps_per_decision; ++i) {
-          advance(node.state, line_set_points_m_s[action]);
+          advance(node.state, drive_.set_points_m_s[action], drive_.gain_limit_m_s);
         }
         const auto next = static_cast<std::uint32_t>(now.size());
         if (cells.find_or_put(grid.cell(node.state), next) == next) {

@@ -14,12 +14,17 @@
 
 namespace striker::training {
 
+// Whose states are merged, and how finely.
 struct LineGrid {
   double position_cell_m = 0.005;
   double speed_cell_m_s = 0.02;
+  core::RobotDescription robot = core::forward;
 
   // The robot cannot go farther, nor faster.
-  static constexpr double farthest_m = top_speed_m_s * sil::kick_decisions * sil::decision_period_s;
+  [[nodiscard]] double top_speed_m_s() const { return sil::spec_of(robot).max_rim_speed_m_s; }
+  [[nodiscard]] double farthest_m() const {
+    return top_speed_m_s() * sil::kick_decisions * sil::decision_period_s;
+  }
 
   [[nodiscard]] std::size_t rows() const;     // of positions
   [[nodiscard]] std::size_t columns() const;  // of speeds
@@ -62,6 +67,7 @@ class Reachable {
   explicit Reachable(const LineGrid& grid);
 
   [[nodiscard]] const LineGrid& grid() const { return grid_; }
+  [[nodiscard]] const LineDrive& drive() const { return drive_; }
   // The nodes that the robot can be in before this decision (0 to 39), sorted by rows of the grid.
   [[nodiscard]] std::span<const LineNode> level(int decision) const {
     return levels_[static_cast<std::size_t>(decision)];
@@ -73,6 +79,7 @@ class Reachable {
 
  private:
   LineGrid grid_;
+  LineDrive drive_;
   std::vector<std::vector<LineNode>> levels_;
 };
 

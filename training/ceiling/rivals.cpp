@@ -17,17 +17,23 @@ constexpr int go_forward = 0;
 constexpr int stay = 1;
 constexpr int go_back = 2;
 
-constexpr double forward_gain_m_s2 = 11.1;  // two wheels' torque over what they push, rounded
+// At full throttle, to three digits: a forward's 11.1 m/s^2.
+double acceleration_m_s2(const LineDrive& drive) {
+  const double exact_m_s2 = drive.gain_limit_m_s / physics_step_s;
+  const double digits = std::pow(10.0, 2.0 - std::floor(std::log10(exact_m_s2)));
+  return std::round(digits * exact_m_s2) / digits;
+}
 
 // How long the robot takes for this way at full throttle.
-double way_time_s(double way_m, double speed_m_s) {
-  const double faster_m_s = line_set_points_m_s[0] - speed_m_s;
-  const double way_to_top_m = (speed_m_s + 0.5 * faster_m_s) * faster_m_s / forward_gain_m_s2;
+double way_time_s(const LineDrive& drive, double way_m, double speed_m_s) {
+  const double gain_m_s2 = acceleration_m_s2(drive);
+  const double faster_m_s = drive.top_speed_m_s - speed_m_s;
+  const double way_to_top_m = (speed_m_s + 0.5 * faster_m_s) * faster_m_s / gain_m_s2;
   if (way_m > way_to_top_m) {
-    return faster_m_s / forward_gain_m_s2 + (way_m - way_to_top_m) / line_set_points_m_s[0];
+    return faster_m_s / gain_m_s2 + (way_m - way_to_top_m) / drive.top_speed_m_s;
   }
-  const double root = speed_m_s * speed_m_s + 2.0 * forward_gain_m_s2 * way_m;
-  return root < 0.0 ? 0.0 : (std::sqrt(root) - speed_m_s) / forward_gain_m_s2;
+  const double root = speed_m_s * speed_m_s + 2.0 * gain_m_s2 * way_m;
+  return root < 0.0 ? 0.0 : (std::sqrt(root) - speed_m_s) / gain_m_s2;
 }
 
 }  // namespace
@@ -47,7 +53,7 @@ int intercept(const InterceptorParameters& parameters, const KickEnvironment& en
   }
   const double crossing_s = -std::log(1.0 - sil::damping_per_s * slowed_s) / sil::damping_per_s;
   const double way_m = ball.x + velocity.x * slowed_s - parameters.stop_short_m;
-  const double spare_s = crossing_s - way_time_s(way_m, seen.robot_speed_m_s);
+  const double spare_s = crossing_s - way_time_s(line_drive(env.config().robot), way_m, seen.robot_speed_m_s);
   if (way_m < parameters.run_up_m && spare_s > parameters.time_to_back_up_s) {
     return go_back;
   }
@@ -60,7 +66,8 @@ int plan_ahead(const KickEnvironment& env) {
   const BallTrack track = ball_track(
       {.position_m = {seen.ball_x_m, seen.ball_y_m}, .velocity_m_s = {seen.ball_vx_m_s, seen.ball_vy_m_s}},
       left * steps_per_decision);
-  const PlanValue value = best_plan(track, {.position_m = 0.0, .speed_m_s = seen.robot_speed_m_s}, left);
+  const PlanValue value = best_plan(line_drive(env.config().robot), track,
+                                    {.position_m = 0.0, .speed_m_s = seen.robot_speed_m_s}, left);
   return value.contact && value.reward > left * official.waiting_reward ? value.plan.action(0) : stay;
 }
 
@@ -79,7 +86,7 @@ ActionRule rule_of(Rival rival, std::uint64_t seed, std::uint64_t episode) {
     case Rival::random:
       return [random = sil::Random(seed, episode, sil::random_stream::random_rival)](
                  const KickEnvironment&) mutable {
-        return static_cast<int>(random.below(line_set_points_m_s.size()));
+        return static_cast<int>(random.below(kick_actions().size()));
       };
     case Rival::interceptor:
       return [](const KickEnvironment& env) { return intercept({}, env); };

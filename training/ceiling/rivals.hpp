@@ -16,7 +16,8 @@ namespace striker::training {
 
 // Starts when the way to where the ball will cross the line takes as long as the ball does; before that it
 // backs up if the run-up is short and there is time. The parameters are the best of 1,000 draws on 2,000
-// training episodes of seed 1 (tests/training/ceiling/rivals_test.cpp repeats the search).
+// training episodes of seed 1 (tests/training/ceiling/rivals_test.cpp repeats the search): for a forward, whatever robot
+// it drives.
 struct InterceptorParameters {
   double stop_short_m = 0.1364;       // of the crossing, the robot's centre
   double lead_s = 0.0481;             // starts so much too early

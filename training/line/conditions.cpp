@@ -39,13 +39,13 @@ Conditions draw_conditions(const RandomiseConfig& ranges, double strength, sil::
   return conditions;
 }
 
-// As sil::straight_speed_m_s: two wheels' forces, each limited by torque and by grip, on the mass and the spin.
-double gain_limit_m_s(const Conditions& conditions) {
-  const double torque_N =
-      conditions.torque_scale * forward_spec.max_wheel_torque_Nm / sil::planar_forward.wheel_radius_m;
-  const double grip_N = conditions.friction_scale * conditions.mass_scale * sil::planar_forward.grip_N;
-  return physics_step_s * 2.0 * std::min(torque_N, grip_N) /
-         (conditions.mass_scale * sil::planar_forward.mass_kg);
+double gain_limit_m_s(const core::RobotDescription& robot, const Conditions& conditions) {
+  const sil::RobotSpec spec = sil::spec_of(robot);
+  sil::PlanarModel model = sil::planar_model(spec);
+  model.grip_N = conditions.friction_scale * conditions.mass_scale * model.grip_N;
+  model.mass_kg = conditions.mass_scale * model.mass_kg;
+  const sil::WheelServo servo{.torque_ceiling_Nm = conditions.torque_scale * spec.max_wheel_torque_Nm};
+  return sil::straight_gain_limit_m_s(model, servo, physics_step_s);
 }
 
 double ball_kept(const Conditions& conditions) {

@@ -22,8 +22,8 @@ struct Conditions {
 // The ranges shrunk towards the nominal values by `strength`, 0 to 1.
 [[nodiscard]] Conditions draw_conditions(const RandomiseConfig& ranges, double strength, sil::Random& random);
 
-// The greatest gain of speed in a physics step, straight on.
-[[nodiscard]] double gain_limit_m_s(const Conditions& conditions);
+// The greatest gain of this robot's speed in a physics step, straight on.
+[[nodiscard]] double gain_limit_m_s(const core::RobotDescription& robot, const Conditions& conditions);
 
 // The share of its velocity that the ball keeps in a physics step.
 [[nodiscard]] double ball_kept(const Conditions& conditions);

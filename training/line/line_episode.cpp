@@ -17,14 +17,6 @@ bool moves(Element element) {
   return std::find(moving_elements.begin(), moving_elements.end(), element) != moving_elements.end();
 }
 
-// The robot's next physics step (sil::straight_speed_m_s).
-void advance(LineState& robot, double set_point_m_s, double gain_limit_m_s) {
-  const double moved_m_s =
-      robot.speed_m_s + std::clamp(set_point_m_s - robot.speed_m_s, -gain_limit_m_s, gain_limit_m_s);
-  robot.position_m += physics_step_s * moved_m_s;
-  robot.speed_m_s = sil::kept_in_10_ms * moved_m_s;
-}
-
 // What the ball's place tells of its velocity, one vision frame after it was at `last_m`.
 sil::Vec2 estimated_velocity_m_s(sil::Vec2 now_m, sil::Vec2 last_m) {
   return {(now_m.x - last_m.x) / sil::decision_period_s, (now_m.y - last_m.y) / sil::decision_period_s};
@@ -92,7 +84,8 @@ std::string LineKick::unfit(const TaskConfig& task) {
   return "";
 }
 
-LineKick::LineKick(const TaskConfig& task) : task_(task) {
+LineKick::LineKick(const TaskConfig& task)
+    : task_(task), top_speed_m_s_(line_drive(task.robot).top_speed_m_s) {
   if (const std::string why = unfit(task); !why.empty()) {
     throw std::invalid_argument("LineKick: " + why);
   }
@@ -109,7 +102,7 @@ LineKick::LineKick(const TaskConfig& task) : task_(task) {
 LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number, const Conditions& conditions) const {
   const sil::KickStart start = sil::draw_kick(seed, number, task_.pose, task_.rules);
   LineEpisode episode{.track = ball_track(start.ball, task_steps, ball_kept(conditions)),
-                      .gain_limit_m_s = gain_limit_m_s(conditions),
+                      .gain_limit_m_s = gain_limit_m_s(task_.robot, conditions),
                       .command_delay_steps = conditions.command_delay_steps,
                       .vision_late_frames = conditions.vision_late_frames,
                       .features = {}};
@@ -193,7 +186,7 @@ double LineKick::contact_reward(const BallTrack& track, int step, const LineStat
 double LineKick::most_reward(int decision) const {
   const sil::KickRules& rules = task_.rules;
   return rules.waiting_reward * decision + std::abs(rules.angle_reward) +
-         std::abs(rules.speed_reward_s_m) * top_speed_m_s;
+         std::abs(rules.speed_reward_s_m) * top_speed_m_s_;
 }
 
 }  // namespace striker::training

@@ -85,6 +85,7 @@ class LineKick {
   [[nodiscard]] double contact_reward(const BallTrack& track, int step, const LineState& robot) const;
 
   TaskConfig task_;
+  double top_speed_m_s_;
   std::vector<double> set_points_m_s_;  // an action each, both wheels alike
   std::vector<MovingInput> moving_;
 };

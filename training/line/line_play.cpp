@@ -29,8 +29,9 @@ struct PlanProgress {
 };
 
 // Carries out one decision.
-PlanEnding drive(PlanProgress& progress, const BallTrack& track, int action, double margin_m) {
-  const double set_point = line_set_points_m_s.at(static_cast<std::size_t>(action));
+PlanEnding carry_out(PlanProgress& progress, const LineDrive& drive, const BallTrack& track, int action,
+                     double margin_m) {
+  const double set_point_m_s = drive.set_points_m_s.at(static_cast<std::size_t>(action));
   for (int i = 0; i < steps_per_decision; ++i, ++progress.step) {
     const double depth = track.depth_m(progress.step, progress.robot.position_m);
     if (depth >= 0.0) {
@@ -40,12 +41,21 @@ PlanEnding drive(PlanProgress& progress, const BallTrack& track, int action, dou
     if (depth > -margin_m) {
       return PlanEnding::spoiled;
     }
-    advance(progress.robot, set_point);
+    advance(progress.robot, set_point_m_s, drive.gain_limit_m_s);
   }
   return PlanEnding::none;
 }
 
 }  // namespace
+
+LineDrive line_drive(const core::RobotDescription& robot) {
+  const sil::RobotSpec spec = sil::spec_of(robot);
+  const double top_m_s = spec.max_rim_speed_m_s;
+  return {.top_speed_m_s = top_m_s,
+          .gain_limit_m_s = sil::straight_gain_limit_m_s(
+              sil::planar_model(spec), {.torque_ceiling_Nm = spec.max_wheel_torque_Nm}, physics_step_s),
+          .set_points_m_s = {top_m_s, 0.0, -top_m_s}};
+}
 
 BallTrack ball_track(const sil::BallState& ball, int steps, double kept) {
   BallTrack track;
@@ -76,7 +86,8 @@ BallTrack ball_track(const sil::KickStart& start) {
                      .velocity_m_s = in_frame(velocity)});
 }
 
-PlanValue best_plan(const BallTrack& track, const LineState& robot, int decisions, double margin_m) {
+PlanValue best_plan(const LineDrive& drive, const BallTrack& track, const LineState& robot, int decisions,
+                    double margin_m) {
   PlanValue best;
   // Later decisions change nothing: the ball has left the line's neighbourhood.
   const int useful = std::min(decisions, (track.end + steps_per_decision - 1) / steps_per_decision);
@@ -96,16 +107,16 @@ PlanValue best_plan(const BallTrack& track, const LineState& robot, int decision
       PlanEnding ending = PlanEnding::none;
       PlanProgress forward = waited;
       for (int i = reverse + wait; ending == PlanEnding::none && i < useful; ++i) {
-        ending = drive(forward, track, 0, margin_m);
+        ending = carry_out(forward, drive, track, 0, margin_m);
       }
       consider(ending, forward, plan);
       if (reverse + wait < useful) {
-        waiting = drive(waited, track, 1, margin_m);
+        waiting = carry_out(waited, drive, track, 1, margin_m);
         consider(waiting, waited, {.reverse = reverse, .wait = wait + 1});
       }
     }
     if (reverse < useful) {
-      reversing = drive(reversed, track, 2, margin_m);
+      reversing = carry_out(reversed, drive, track, 2, margin_m);
       consider(reversing, reversed, {.reverse = reverse + 1, .wait = 0});
     }
   }

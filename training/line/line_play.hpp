@@ -6,8 +6,10 @@
 // Everything is in the frame of the robot at the start: x along the heading.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "sil/world/physics_constants.hpp"
 #include "sil/world/planar_robot.hpp"
@@ -15,11 +17,20 @@
 
 namespace striker::training {
 
-// No robot that starts at rest is faster.
-inline constexpr double top_speed_m_s = forward_spec.max_rim_speed_m_s;
+// What a robot can do on its line.
+struct LineDrive {
+  double top_speed_m_s;   // what starts at rest is never faster
+  double gain_limit_m_s;  // of the speed in a physics step, by the wheels
+  // Forward, stop, backward: both wheels' (paper, section IV.A).
+  std::array<double, 3> set_points_m_s;
 
-// Forward, stop, backward: both wheels' set-point (paper, section IV.A).
-inline constexpr std::array line_set_points_m_s = {top_speed_m_s, 0.0, -top_speed_m_s};
+  // The most that the speed changes by in a physics step: the wheels' gain, and what damping takes beside it when the
+  // robot reverses, each to the next mm/s.
+  [[nodiscard]] double most_gain_m_s() const {
+    return (std::ceil(1e3 * gain_limit_m_s) + std::ceil(1e3 * (1.0 - sil::kept_in_10_ms) * top_speed_m_s)) /
+           1e3;
+  }
+};
 
 static_assert(physics_step_ms == 10, "kept_in_10_ms is what a physics step keeps");
 
@@ -34,17 +45,15 @@ struct LineState {
   double speed_m_s = 0.0;
 };
 
-inline void advance(LineState& robot, double set_point_m_s) {
-  const double moved_m_s = sil::straight_speed_m_s(
-      robot.speed_m_s,
-      {.rim_speed_m_s = set_point_m_s, .torque_ceiling_Nm = forward_spec.max_wheel_torque_Nm},
-      physics_step_s);
+[[nodiscard]] LineDrive line_drive(const core::RobotDescription& robot);
+
+// The next physics step (sil::straight_speed_m_s) of a robot that can gain so much.
+inline void advance(LineState& robot, double set_point_m_s, double gain_limit_m_s) {
+  const double moved_m_s =
+      robot.speed_m_s + std::clamp(set_point_m_s - robot.speed_m_s, -gain_limit_m_s, gain_limit_m_s);
   robot.position_m += physics_step_s * moved_m_s;
   robot.speed_m_s = sil::kept_in_10_ms * moved_m_s;
 }
-
-// Nor does it gain more in a step.
-inline constexpr double most_gain_m_s = 0.118;  // 0.111 from the wheels, 0.006 from damping when it reverses
 
 // Where the ball is before each physics step, and how far from its x the robot's centre touches it there:
 // below 0 nowhere.
@@ -98,7 +107,7 @@ struct PlanValue {
 // The best of all plans that reverse for at most `most_reverse` decisions. With a margin: of those whose
 // contact is at least so deep, after steps that all miss the ball by as much.
 inline constexpr int most_reverse = 12;
-[[nodiscard]] PlanValue best_plan(const BallTrack& track, const LineState& robot, int decisions,
-                                  double margin_m = 0.0);
+[[nodiscard]] PlanValue best_plan(const LineDrive& drive, const BallTrack& track, const LineState& robot,
+                                  int decisions, double margin_m = 0.0);
 
 }  // namespace striker::training

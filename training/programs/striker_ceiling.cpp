@@ -10,6 +10,7 @@
 #include "firmware/host/files.hpp"
 #include "firmware/host/progress.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "sil/robot/description/robot_file.hpp"
 #include "training/ceiling/ceiling_report.hpp"
 #include "training/ceiling/ceiling_run.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 
 struct Options {
   CeilingOptions run;
+  std::filesystem::path robot;
   std::string pose = "origin";
   std::string replay = "fast";
   double position_cell_mm = 5.0;
@@ -32,7 +34,8 @@ int find_ceiling(Options options) {
   run.pose = options.pose == "origin" ? sil::PoseMode::origin : sil::PoseMode::anywhere;
   run.replay = options.replay == "fast" ? Physics::planar : Physics::full;
   run.grid = {.position_cell_m = options.position_cell_mm * 1e-3,
-              .speed_cell_m_s = options.speed_cell_mm_s * 1e-3};
+              .speed_cell_m_s = options.speed_cell_mm_s * 1e-3,
+              .robot = options.robot.empty() ? core::forward : sil::read_robot(options.robot)};
   host::catch_stop_signals();
   const Reachable reachable(run.grid);
   host::ProgressLine line("episode", run.episodes);
@@ -75,6 +78,9 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--seed", options.run.seed, "of the episodes")->required()->check(CLI::NonNegativeNumber);
+  striker::host::reads_file(
+      app.add_option("--robot", options.robot,
+                     "whose ceiling, a description as in firmware/robots; left out: the forward's"));
   app.add_option("--pose", options.pose, "the robot's start: origin or anywhere on the field")
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();

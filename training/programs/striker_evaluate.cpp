@@ -12,6 +12,7 @@
 #include "firmware/host/files.hpp"
 #include "firmware/host/progress.hpp"
 #include "firmware/host/version.hpp"
+#include "sil/robot/description/robot_file.hpp"
 #include "sil/task/kick_report.hpp"
 #include "sil/task/mean_estimate.hpp"
 #include "training/export/comparison/agreement.hpp"
@@ -36,6 +37,7 @@ struct Options {
   std::string velocities = "true";
   std::string world = "full";
   std::filesystem::path config;
+  std::filesystem::path robot;
   std::vector<std::string> conditions;
   std::filesystem::path decisions;
   std::filesystem::path json;
@@ -147,6 +149,9 @@ int main(int argc, char** argv) {
       "which of several networks in the file: how its tensors' names begin, such as q_net or model");
   app.add_option("--config", options.config,
                  "the TOML file whose task it was trained for, if the model does not hold it");
+  auto* robot = striker::host::reads_file(app.add_option(
+      "--robot", options.robot,
+      "plays with this robot, a description as in firmware/robots, instead of the one it was trained for"));
   app.add_option("--velocities", options.velocities, "what the network sees: true or estimated velocities")
       ->check(CLI::IsMember({"true", "estimated"}))
       ->capture_default_str();
@@ -164,12 +169,14 @@ int main(int argc, char** argv) {
       app.add_option("--decisions", options.decisions, "CSV file of a controller's decisions"));
   striker::host::writes_file(app.add_option("--json", options.json, "write the figures to this file"));
   episodes->needs(seed)->excludes(decisions);
+  robot->needs(episodes);
   return striker::host::run(app, argc, argv, [&] {
     if (!*episodes && !*decisions) {
       throw std::runtime_error("give --episodes and --seed, or --decisions");
     }
     const Model model = load_model(options.model, options.network);
-    const TaskConfig task = task_of(model, options.config);
+    const TaskConfig own = task_of(model, options.config);
+    const TaskConfig task = *robot ? with_robot(own, striker::sil::read_robot(options.robot)) : own;
     if (*condition) {
       return evaluate_conditions(options, model, task);
     }

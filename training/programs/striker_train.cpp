@@ -10,6 +10,7 @@
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/progress.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "sil/robot/description/robot_file.hpp"
 #include "training/run/directory/train_into.hpp"
 #include "training/run/model_task.hpp"
 
@@ -21,6 +22,7 @@ constexpr int exit_diverged = 3;
 
 struct Options {
   std::filesystem::path config;
+  std::filesystem::path robot;
   std::vector<std::string> changes;
   std::uint64_t seed = 0;
   std::filesystem::path out;
@@ -81,8 +83,16 @@ TrainingResult train_with_progress(const Options& options, const Config& config)
   }
 }
 
+// The robot first: --set may change it, too.
+std::vector<std::string> changes_of(const Options& options) {
+  std::vector<std::string> changes =
+      options.robot.empty() ? std::vector<std::string>{} : robot_changes(sil::read_robot(options.robot));
+  changes.insert(changes.end(), options.changes.begin(), options.changes.end());
+  return changes;
+}
+
 int train_and_save(const Options& options) {
-  const Config config = load_config(options.config, options.changes);
+  const Config config = load_config(options.config, changes_of(options));
   host::catch_stop_signals();
   TrainingResult result;
   try {
@@ -123,6 +133,9 @@ int main(int argc, char** argv) {
   app.add_option("--set", options.changes, "changes a key of it: --set learner.gamma=0.99")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  striker::host::reads_file(
+      app.add_option("--robot", options.robot,
+                     "the robot that it is for, a description as in firmware/robots: instead of [robot]"));
   app.add_option("--seed", options.seed, "of the weights, the episodes, the exploration and the sampling")
       ->required()
       ->check(CLI::NonNegativeNumber);

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "firmware/core/robot_ranges.hpp"
 #include "firmware/host/files.hpp"
 #include "paper_toml.hpp"
 #include "training/run/learner_reader.hpp"
@@ -65,10 +66,13 @@ void override_with(const toml::table& from, toml::table& into, const std::string
 }
 
 // Every key with its value; those that older configurations did not have only where they are not the default.
-std::string canonical_text(toml::table root) {
+std::string canonical_text(toml::table root, const core::RobotDescription& robot) {
   toml::table& task = *root["task"].as_table();
   if (task["kind"].value<std::string>() == default_kind) {
     task.erase("kind");
+  }
+  if (robot == core::forward) {
+    root.erase("robot");
   }
   toml::table& learner = *root["learner"].as_table();
   if (learner["time_limit"].value<bool>() == false) {
@@ -82,6 +86,14 @@ std::string canonical_text(toml::table root) {
   std::ostringstream every_key;
   every_key << root << '\n';
   return every_key.str();
+}
+
+toml::array kick_actions_of(const core::RobotDescription& robot) {
+  toml::array rows;
+  for (const auto& [left_m_s, right_m_s] : kick_actions(robot)) {
+    rows.push_back(toml::array{left_m_s, right_m_s});
+  }
+  return rows;
 }
 
 Shape read_shape(const TomlReader& reader, const TaskConfig& task) {
@@ -107,14 +119,24 @@ std::string_view default_configuration() {
 Config parse_config(std::string_view text, const std::string& file, const std::vector<std::string>& changes) {
   const toml::table defaults = parse(paper_toml, "paper.toml");
   toml::table root = defaults;
-  override_with(parse(text, file), root, file);
+  bool names_actions = false;
+  const auto read_from = [&](std::string_view part, const std::string& source) {
+    const toml::table table = parse(part, source);
+    override_with(table, root, source);
+    names_actions = names_actions || table.at_path("task.actions");
+  };
+  read_from(text, file);
   for (const std::string& change : changes) {
-    override_with(parse(change, "--set " + change), root, "--set " + change);
+    read_from(change, "--set " + change);
+  }
+  const TomlReader reader(root, file);
+  const core::RobotDescription robot = read_robot_table(reader);
+  if (!names_actions) {
+    root["task"].as_table()->insert_or_assign("actions", kick_actions_of(robot));
   }
   Config config;
   config.name = std::filesystem::path(file).stem().string();
-  config.text = canonical_text(root);
-  const TomlReader reader(root, file);
+  config.text = canonical_text(root, robot);
   reader.read("run.episodes", config.run.episodes, 1, 10'000'000);
   reader.read("run.evaluation_period", config.run.evaluation_period, 0, 10'000'000);
   reader.read("run.validation_episodes", config.run.validation_episodes, 0, 1'000'000);
@@ -135,6 +157,15 @@ Config parse_config(std::string_view text, const std::string& file, const std::v
 
 Config load_config(const std::filesystem::path& file, const std::vector<std::string>& changes) {
   return parse_config(host::read_file(file), file.string(), changes);
+}
+
+std::vector<std::string> robot_changes(const core::RobotDescription& robot) {
+  std::vector<std::string> changes;
+  changes.reserve(core::robot_keys.size());
+  for (const core::RobotKey& key : core::robot_keys) {
+    changes.push_back(fmt::format("robot.{}={}", key.name, robot.*key.member));
+  }
+  return changes;
 }
 
 LearnerSetup setup_of(const Config& config) {

@@ -23,8 +23,9 @@ struct RunConfig {
 struct Config {
   std::string name;  // the file's name without its extension
   // Every key with its value, in one fixed order: the same text is the same training. `task.kind` stands in
-  // it only if it is not "kick", `learner.time_limit` only if it is true, `learner.kind`, [rollout] and [randomise] only
-  // if the learner is not "dqn": configurations are known by their text's hash, and older ones did not have those keys.
+  // it only if it is not "kick", [robot] only if it is not the forward, `learner.time_limit` only if it is true,
+  // `learner.kind`, [rollout] and [randomise] only if the learner is not "dqn": configurations are known by their text's
+  // hash, and older ones did not have those keys.
   std::string text;
   RunConfig run;
   std::vector<TaskConfig> environments;  // played in turn, episode by episode; the first one validates
@@ -44,6 +45,9 @@ struct Config {
                                  const std::vector<std::string>& changes = {});
 [[nodiscard]] Config parse_config(std::string_view text, const std::string& file,
                                   const std::vector<std::string>& changes = {});
+
+// The changes that make it another robot's: "robot.body_mass_g=2500" and so on.
+[[nodiscard]] std::vector<std::string> robot_changes(const core::RobotDescription& robot);
 
 // The learner that it describes.
 [[nodiscard]] LearnerSetup setup_of(const Config& config);

@@ -26,6 +26,14 @@ TaskConfig task_of(const Model& model, const std::filesystem::path& config_file)
   return task;
 }
 
+TaskConfig with_robot(TaskConfig task, const core::RobotDescription& robot) {
+  task.robot = robot;
+  if (const std::string why = unreachable_action(task); !why.empty()) {
+    throw std::runtime_error("the robot is too slow for the model: " + why);
+  }
+  return task;
+}
+
 void require_fits(const Model& model, const Config& config, const std::string& file) {
   const auto refuse = [&file](const std::string& why) {
     throw std::runtime_error(fmt::format("{}: a training cannot begin from it: {}", file, why));

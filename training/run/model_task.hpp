@@ -16,6 +16,9 @@ namespace striker::training {
 // fit the network.
 [[nodiscard]] TaskConfig task_of(const Model& model, const std::filesystem::path& config_file);
 
+// The same task for another robot. Throws std::runtime_error if its wheels do not reach what an action sets them to.
+[[nodiscard]] TaskConfig with_robot(TaskConfig task, const core::RobotDescription& robot);
+
 // Throws std::runtime_error, naming `file`, what differs and the way out, unless a training of `config` can begin
 // from this model: its network's widths, and (where the model says so) its task's inputs, actions and mirror.
 void require_fits(const Model& model, const Config& config, const std::string& file);

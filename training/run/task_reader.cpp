@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "firmware/core/robot_ranges.hpp"
+#include "sil/world/robot_specs.hpp"
+
 namespace striker::training {
 
 namespace {
@@ -90,7 +93,7 @@ RandomiseConfig read_randomise(const TomlReader& reader) {
 }
 
 TaskConfig read_task(const TomlReader& reader) {
-  TaskConfig task;
+  TaskConfig task{.robot = read_robot_table(reader)};
   reader.read<TaskKind>("task.kind", task.kind, {{"kick", TaskKind::kick}});
   reader.read<Physics>("task.world", task.physics, {{"fast", Physics::planar}, {"full", Physics::full}});
   reader.read<sil::PoseMode>("task.pose", task.pose,
@@ -100,7 +103,7 @@ TaskConfig read_task(const TomlReader& reader) {
   task.inputs = read_inputs(reader);
   reader.read("task.mirrored", task.one_sided);
   task.actions.clear();
-  constexpr double top_m_s = forward_spec.max_rim_speed_m_s;
+  const double top_m_s = sil::spec_of(task.robot).max_rim_speed_m_s;
   for (const auto& pair : reader.pairs("task.actions", 2, 16, -top_m_s, top_m_s)) {
     task.actions.push_back({.left_m_s = pair[0], .right_m_s = pair[1]});
   }
@@ -124,6 +127,18 @@ void require_mirror_actions(const TomlReader& reader, const TaskConfig& task) {
 }
 
 }  // namespace
+
+core::RobotDescription read_robot_table(const TomlReader& reader) {
+  core::RobotDescription robot = core::forward;
+  for (const core::RobotKey& key : core::robot_keys) {
+    reader.read(fmt::format("robot.{}", key.name), robot.*key.member, key.least, key.greatest);
+  }
+  if (!core::loops_fit(core::profile_of(robot))) {
+    reader.fail("robot.torque_limit_mNm",
+                "with these masses and wheels the wheel loops would not fit 32 bits, or have no gain at all");
+  }
+  return robot;
+}
 
 std::vector<TaskConfig> read_environments(const TomlReader& reader) {
   using enum Velocities;

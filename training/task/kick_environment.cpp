@@ -12,18 +12,20 @@ namespace {
 
 static_assert(sil::kick_decisions == policy::decisions_a_kick, "the firmware counts other decisions down");
 
-std::variant<sil::PlanarWorld, sil::World> make_world(Physics physics) {
-  if (physics == Physics::planar) {
-    return sil::PlanarWorld(physics_step_s);
+std::variant<sil::PlanarWorld, sil::World> make_world(const TaskConfig& task) {
+  const sil::WorldConfig world = sil::kick_world(physics_step_s, {.robot = sil::spec_of(task.robot)});
+  if (task.physics == Physics::planar) {
+    return sil::PlanarWorld(world);
   }
-  return sil::World(sil::kick_world(physics_step_s));
+  return sil::World(world);
 }
 
 }  // namespace
 
 KickEnvironment::KickEnvironment(const TaskConfig& task)
     : config_(task),
-      world_(make_world(task.physics)),
+      world_(make_world(task)),
+      torque_limit_Nm_(sil::spec_of(task.robot).max_wheel_torque_Nm),
       episode_(task.rules),
       dummies_(0, 0, sil::random_stream::dummies),
       features_(task.inputs.size()) {}
@@ -65,8 +67,8 @@ void KickEnvironment::finish() {
 void KickEnvironment::drive(const SetPoint& set_point, int steps) {
   std::visit(
       [&](auto& world) {
-        world.servo_wheel(0, sil::Wheel::left, set_point.left_m_s, forward_spec.max_wheel_torque_Nm);
-        world.servo_wheel(0, sil::Wheel::right, set_point.right_m_s, forward_spec.max_wheel_torque_Nm);
+        world.servo_wheel(0, sil::Wheel::left, set_point.left_m_s, torque_limit_Nm_);
+        world.servo_wheel(0, sil::Wheel::right, set_point.right_m_s, torque_limit_Nm_);
         for (int i = 0; i < steps; ++i) {
           episode_.step(world);
         }

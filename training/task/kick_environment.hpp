@@ -48,6 +48,7 @@ class KickEnvironment {
 
   TaskConfig config_;
   std::variant<sil::PlanarWorld, sil::World> world_;
+  double torque_limit_Nm_;  // of each wheel
   sil::KickEpisode episode_;
   sil::Vec2 last_ball_m_;  // one vision frame ago
   History history_;

@@ -2,10 +2,11 @@
 // What a configuration says about the task: which environment plays it, where, with which inputs and actions.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "firmware/core/robot_profile.hpp"
 #include "sil/task/kick_task.hpp"
-#include "sil/world/robot_specs.hpp"
 #include "training/task/state.hpp"
 
 namespace striker::training {
@@ -34,14 +35,11 @@ struct SetPoint {
   return {.left_m_s = action.right_m_s, .right_m_s = action.left_m_s};
 }
 
-// Forward, stop, backward (paper, section IV.A).
-[[nodiscard]] std::vector<SetPoint> kick_actions();
+// Forward, stop, backward, as fast as the robot's wheels go (paper, section IV.A).
+[[nodiscard]] std::vector<SetPoint> kick_actions(const core::RobotDescription& robot = core::forward);
 
 // The number of the action that is the mirror image of this one; -1 if none is.
 [[nodiscard]] int mirrored_action(const std::vector<SetPoint>& actions, int action);
-
-// The paper's plant: a forward, whose servos may draw this torque a wheel and reach this speed.
-inline constexpr sil::RobotSpec forward_spec = sil::robot_spec(sil::Role::forward);
 
 struct Range {
   double low = 0.0;
@@ -59,6 +57,9 @@ struct RandomiseConfig {
 
 struct TaskConfig {
   TaskKind kind = TaskKind::kick;
+  // Whose servos, mass and tyres the worlds have, the paper's forward. Its delays play no part in training: the
+  // controller foresees them.
+  core::RobotDescription robot = core::forward;
   Physics physics = Physics::planar;
   sil::PoseMode pose = sil::PoseMode::origin;
   Velocities velocities = Velocities::exact;
@@ -68,11 +69,15 @@ struct TaskConfig {
   // mirror along the heading, and an action swaps the wheels. `task.mirrored` in TOML, `mirrored` in an
   // exported header.
   bool one_sided = false;
-  std::vector<SetPoint> actions = kick_actions();
+  std::vector<SetPoint> actions = kick_actions(robot);
   // What a kick pays, and whether the learner's episode goes on after the contact.
   sil::KickRules rules = {};
   bool goes_on = false;
   RandomiseConfig randomise = {};
 };
+
+// Which action's set-point the robot's wheels do not reach, as "task.actions[NUMBER] = ...: WHY"; empty if they reach
+// all.
+[[nodiscard]] std::string unreachable_action(const TaskConfig& task);
 
 }  // namespace striker::training

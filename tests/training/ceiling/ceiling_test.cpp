@@ -51,6 +51,46 @@ TEST(Ceiling, TheFastWorldGivesExactlyWhatWasFound) {
   }
 }
 
+// A robot of 2.5 kg: its worlds, its search and its rivals are the same robot's.
+TEST(Ceiling, AnyRobotGetsWhatWasFound) {
+  core::RobotDescription heavy = core::forward;
+  heavy.body_mass_g = 2500;
+  heavy.top_rim_speed_mm_s = 2000;
+  const LineGrid grid{.robot = heavy};
+  const CeilingOptions options{.seed = 29, .episodes = 100, .rivals = true, .jobs = 2, .grid = grid};
+  const auto episodes = run_ceiling(options, Reachable(grid), [](int) { return true; });
+  ASSERT_EQ(episodes.size(), 100U);
+  double ceilings = 0.0;
+  double planners = 0.0;
+  for (const CeilingEpisode& episode : episodes) {
+    EXPECT_NEAR(episode.best_replay.reward, episode.ceiling.best.reward, 1e-9);
+    EXPECT_NEAR(episode.safe_replay.reward, episode.ceiling.safe.reward, 1e-9);
+    for (const sil::KickOutcome& rival : episode.rivals) {
+      EXPECT_LE(rival.reward, episode.ceiling.best.reward + grid_loss);
+    }
+    ceilings += episode.ceiling.best.reward;
+    planners += episode.rivals.at(static_cast<std::size_t>(Rival::planner)).reward;
+  }
+  EXPECT_GE(ceilings, planners);
+  EXPECT_GT(planners, 100.0 * 3.0);
+}
+
+// What the search drops rests on it.
+TEST(Ceiling, NoRobotGainsMoreThanTheMost) {
+  EXPECT_EQ(line_drive(core::forward).most_gain_m_s(), 0.118);  // 0.111 from the wheels, 0.006 from damping
+  core::RobotDescription fast = core::goalkeeper;
+  fast.top_rim_speed_mm_s = 8000;
+  for (const core::RobotDescription& robot : {core::forward, core::goalkeeper, core::defender, fast}) {
+    const LineDrive drive = line_drive(robot);
+    for (double share = -1.0; share <= 1.0; share += 0.05) {
+      LineState state{.speed_m_s = share * drive.top_speed_m_s};
+      advance(state, drive.set_points_m_s[0], drive.gain_limit_m_s);
+      EXPECT_LE(state.speed_m_s - share * drive.top_speed_m_s, drive.most_gain_m_s());
+      EXPECT_LE(state.speed_m_s, drive.top_speed_m_s);
+    }
+  }
+}
+
 // One of the two at least: an edge may fall differently there.
 TEST(Ceiling, TheFullWorldGivesWhatWasFound) {
   CeilingSearch search(reachable());

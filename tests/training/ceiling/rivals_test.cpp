@@ -42,7 +42,7 @@ TEST(Rivals, ThePlannerGetsWhatItPlans) {
   int contacts = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
     const BallTrack track = ball_track(sil::draw_kick(32, i, sil::PoseMode::origin));
-    const PlanValue planned = best_plan(track, {}, sil::kick_decisions);
+    const PlanValue planned = best_plan(line_drive(core::forward), track, {}, sil::kick_decisions);
     const sil::KickOutcome outcome = play(env, 32, i, plan_ahead);
     // Planning anew can only find something better on the way.
     EXPECT_GE(outcome.reward, planned.reward - 1e-6) << i;

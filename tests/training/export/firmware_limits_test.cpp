@@ -34,6 +34,14 @@ TEST(FirmwareLimits, ASetPointBeyondTheRobotIsNamed) {
   EXPECT_NE(complaint_about(task), "served");
 }
 
+TEST(FirmwareLimits, TheLimitIsTheRobots) {
+  EXPECT_EQ(complaint_about({.robot = core::goalkeeper}), "served");
+  const std::string message = complaint_about({.robot = core::goalkeeper, .actions = kick_actions()});
+  EXPECT_NE(message.find("task.actions[0] = [2.55, 2.55]: a wheel of the robot reaches 1.8 m/s"),
+            std::string::npos)
+      << message;
+}
+
 TEST(FirmwareLimits, WhatTheControllerDoesNotComputeIsNamed) {
   EXPECT_NE(complaint_about({.equations = Equations::printed}).find("printed"), std::string::npos);
   EXPECT_NE(complaint_about({.inputs = acs_inputs()}).find("field_robot_x"), std::string::npos);

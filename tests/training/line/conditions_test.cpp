@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::uint64_t seed = 11;
 
-// One episode in the fast world, whose servos can be given any torque and told any time.
-double world_reward(std::uint64_t number, double torque_Nm, int delay_steps,
-                    const std::vector<int>& actions) {
-  const LineKick kick{TaskConfig{}};
-  sil::PlanarWorld world(physics_step_s);
+// One episode in a robot's fast world, whose servos can be given any torque and told any time.
+double world_reward(const core::RobotDescription& robot, std::uint64_t number, double torque_Nm,
+                    int delay_steps, const std::vector<int>& actions) {
+  const LineKick kick({.robot = robot});
+  sil::PlanarWorld world(sil::kick_world(physics_step_s, {.robot = sil::spec_of(robot)}));
   sil::KickEpisode episode;
   episode.begin(world, sil::draw_kick(seed, number, sil::PoseMode::origin));
   double old_m_s = 0.0;
@@ -36,19 +36,25 @@ double world_reward(std::uint64_t number, double torque_Nm, int delay_steps,
   return episode.outcome().reward;
 }
 
-double line_reward(std::uint64_t number, const Conditions& conditions, const std::vector<int>& actions) {
-  const LineKick kick{TaskConfig{}};
+double line_reward(const core::RobotDescription& robot, std::uint64_t number, const Conditions& conditions,
+                   const std::vector<int>& actions) {
+  const LineKick kick({.robot = robot});
   const LineEpisode episode = kick.draw(seed, number, conditions);
-  LineRobot robot;
-  for (std::size_t i = 0; !robot.over; ++i) {
-    kick.step(episode, robot, actions[i]);
+  LineRobot at;
+  for (std::size_t i = 0; !at.over; ++i) {
+    kick.step(episode, at, actions[i]);
   }
-  return robot.reward;
+  return at.reward;
 }
 
+class RobotsConditions : public testing::TestWithParam<core::RobotDescription> {};
+INSTANTIATE_TEST_SUITE_P(Conditions, RobotsConditions, testing::Values(core::forward, core::goalkeeper));
+
 // A heavier robot is one with less torque; one that slips is one whose torque ends at the grip.
-TEST(Conditions, AreTheWorldsWithOtherServos) {
-  constexpr double nominal_Nm = forward_spec.max_wheel_torque_Nm;
+TEST_P(RobotsConditions, AreTheWorldsWithOtherServos) {
+  const core::RobotDescription robot = GetParam();
+  const sil::RobotSpec spec = sil::spec_of(robot);
+  const double nominal_Nm = spec.max_wheel_torque_Nm;
   std::mt19937 random(2);
   int contacts = 0;
   for (std::uint64_t number = 0; number < 400; ++number) {
@@ -59,15 +65,28 @@ TEST(Conditions, AreTheWorldsWithOtherServos) {
     }
     const auto delay = static_cast<int>(number % 6);
     const Conditions weak{.mass_scale = 1.25, .torque_scale = 0.8, .command_delay_steps = delay};
-    const double weak_reward = line_reward(number, weak, actions);
-    ASSERT_NEAR(weak_reward, world_reward(number, 0.64 * nominal_Nm, delay, actions), 1e-9) << number;
-    const double grip_Nm = 0.1 * sil::planar_forward.grip_N * sil::planar_forward.wheel_radius_m;
+    const double weak_reward = line_reward(robot, number, weak, actions);
+    ASSERT_NEAR(weak_reward, world_reward(robot, number, 0.64 * nominal_Nm, delay, actions), 1e-9) << number;
+    const double grip_Nm = 0.1 * sil::planar_model(spec).grip_N * spec.wheel_radius_m;
     ASSERT_LT(grip_Nm, nominal_Nm);
-    ASSERT_NEAR(line_reward(number, {.friction_scale = 0.1}, actions),
-                world_reward(number, grip_Nm, 0, actions), 1e-9);
+    ASSERT_NEAR(line_reward(robot, number, {.friction_scale = 0.1}, actions),
+                world_reward(robot, number, grip_Nm, 0, actions), 1e-9);
     contacts += weak_reward > no_contact_reward ? 1 : 0;
   }
   EXPECT_GT(contacts, 30);
+}
+
+// The scales are factors of the robot's own numbers: it is another description's nominal robot then.
+TEST_P(RobotsConditions, ScaleTheRobotsOwnNumbers) {
+  core::RobotDescription other = GetParam();
+  other.body_mass_g = other.body_mass_g * 3 / 2;
+  other.wheel_mass_g = other.wheel_mass_g * 3 / 2;
+  other.torque_limit_mNm /= 2;
+  EXPECT_NEAR(gain_limit_m_s(GetParam(), {.mass_scale = 1.5, .torque_scale = 0.5}), gain_limit_m_s(other, {}),
+              1e-12);
+  other.tyre_friction_percent = 3;
+  EXPECT_NEAR(gain_limit_m_s(GetParam(), {.friction_scale = 0.01}), gain_limit_m_s(other, {}), 1e-12);
+  EXPECT_LT(gain_limit_m_s(other, {}), 0.1 * gain_limit_m_s(GetParam(), {}));
 }
 
 // A ball that is damped at rate k goes v (1 - exp(-k t)) / k; the world's steps of 10 ms go 0.1 % further.
@@ -167,7 +186,7 @@ TEST(Conditions, AreDrawnWithinTheirRanges) {
   }
   EXPECT_NEAR(late[0], 3000, 250);
   const Conditions nominal = draw_conditions(ranges, 0.0, random);
-  EXPECT_EQ(gain_limit_m_s(nominal), gain_limit_m_s({}));
+  EXPECT_EQ(gain_limit_m_s(core::forward, nominal), gain_limit_m_s(core::forward, {}));
   EXPECT_EQ(ball_kept(nominal), sil::kept_in_10_ms);
   EXPECT_EQ(nominal.command_delay_steps + nominal.vision_late_frames, 0);
   EXPECT_EQ(nominal.vision_noise_m, 0.0);

@@ -2,10 +2,12 @@
 // The configuration: what is wrong is named.
 #include "training/run/config.hpp"
 
+#include "firmware/core/robot_ranges.hpp"
 #include "firmware/policy/exported/kick.hpp"
 #include "firmware/policy/exported/kick_dqn.hpp"
 #include "tests/training/fixtures.hpp"
 #include "training/model/hash.hpp"
+#include "training/run/config_changes.hpp"
 
 namespace striker::training {
 namespace {
@@ -46,6 +48,14 @@ const std::vector<Wrong> wrong = {
      {"task.actions", "2 to 16"}},
     {"NoPair", "[0.0, 0.0], ", "[0.0], ", {"task.actions", "2 numbers"}},
     {"TooFast", "[0.0, 0.0], ", "[0.0, 3.0], ", {"task.actions", "2.55"}},
+    {"RobotTooHeavy", "mass_g = 1500", "mass_g = 100001", {"robot.body_mass_g = 100001", "200 to 100000"}},
+    {"HalfAGramme", "mass_g = 1500", "mass_g = 1500.5", {"robot.body_mass_g = 1500.5", "whole number"}},
+    {"RobotsUnknownKey", "mass_g = 1500", "weight_g = 1500", {"robot.body_weight_g", "robot.body_mass_g"}},
+    {"TooFastForThatRobot", "speed_mm_s = 2550", "speed_mm_s = 1800", {"task.actions", "-1.8 to 1.8"}},
+    {"NoWheelLoops",
+     "body_mass_g = 1500\nwheel_mass_g = 100\nwheel_radius_um = 40_000",
+     "body_mass_g = 100000\nwheel_mass_g = 100\nwheel_radius_um = 200_000",
+     {"robot.torque_limit_mNm = 400", "32 bits"}},
     {"UnknownKind", "kind = \"kick\"", "kind = \"dribble\"", {"task.kind = 'dribble'", "must be \"kick\""}},
     {"SpeedsTurned", "speed_m_s = [1.0, 3.0]", "speed_m_s = [3.0, 1.0]", {"ball.speed_m_s", "lower"}},
     {"HalfANeuron", "hidden = [64, 64]", "hidden = [64, 0.5]", {"network.hidden"}},
@@ -94,6 +104,35 @@ TEST(Config, TheCommittedPoliciesConfigurationsAreStillTheirOwn) {
   EXPECT_EQ(fnv1a(load_config(configs / "kick_dqn.toml").text), policy::kick_dqn.configuration_hash);
   EXPECT_EQ(kick.environments.front().kind, TaskKind::kick);
   EXPECT_EQ(parse_config("[task]\nkind = \"kick\"\n", "f").text, parse_config("", "f").text);
+}
+
+// The forward's table stands in no text; another robot's does, with the actions that follow from it.
+TEST(Config, ARobotStandsInTheTextUnlessItIsTheForward) {
+  const Config paper = parse_config("", "f");
+  EXPECT_EQ(paper.environments.front().robot, core::forward);
+  EXPECT_EQ(paper.text.find("robot"), paper.text.find("robot_speed"));
+  EXPECT_EQ(parse_config("[robot]\nbody_mass_g = 1500\n", "f").text, paper.text);
+  EXPECT_EQ(parse_config("", "f", robot_changes(core::forward)).text, paper.text);
+  for (const core::RobotDescription& robot : {core::goalkeeper, core::defender}) {
+    const Config config = parse_config("", "f", robot_changes(robot));
+    const Config again = parse_config(config.text, "g");
+    EXPECT_EQ(again.text, config.text);
+    EXPECT_EQ(again.environments.front().robot, robot);
+    EXPECT_EQ(again.environments.front().actions, kick_actions(robot));
+    EXPECT_EQ(changed_keys(paper.text, config.text).size(), core::robot_keys.size() + 1) << config.text;
+  }
+}
+
+TEST(Config, TheActionsAreTheRobotsUnlessTheyAreNamed) {
+  const std::string slower = "[robot]\ntop_rim_speed_mm_s = 1800\n";
+  EXPECT_EQ(parse_config(slower, "f").environments.front().actions,
+            (std::vector<SetPoint>{{1.8, 1.8}, {0.0, 0.0}, {-1.8, -1.8}}));
+  const std::vector<SetPoint> named = {{1.0, 1.0}, {0.0, 0.0}};
+  EXPECT_EQ(
+      parse_config(slower + "[task]\nactions = [[1.0, 1.0], [0.0, 0.0]]\n", "f").environments.front().actions,
+      named);
+  EXPECT_EQ(parse_config(slower, "f", {"task.actions=[[1.0, 1.0], [0.0, 0.0]]"}).environments.front().actions,
+            named);
 }
 
 TEST(Config, TheTimeLimitStandsInTheTextOnlyWhereItIsOn) {

@@ -20,6 +20,16 @@ TEST(ModelTask, IsThatOfItsConfiguration) {
   EXPECT_EQ(task_of(stranger, directory / "acs.toml").inputs, acs_inputs());
 }
 
+// The actions stay: a robot that does not reach them is refused.
+TEST(ModelTask, MayBePlayedByAnotherRobot) {
+  const TaskConfig own = parse_config("", "f").environments.front();
+  core::RobotDescription heavier = core::forward;
+  heavier.body_mass_g = 2500;
+  EXPECT_EQ(with_robot(own, heavier).robot, heavier);
+  EXPECT_EQ(with_robot(own, heavier).actions, own.actions);
+  EXPECT_THROW((void)with_robot(own, core::goalkeeper), std::runtime_error);
+}
+
 // What a training can begin from: the widths must be the configuration's, and the task where the model names it.
 TEST(ModelTask, ATrainingBeginsFromWhatFits) {
   const auto complaint = [](const Model& model, const std::string& config) {

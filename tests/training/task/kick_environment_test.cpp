@@ -232,5 +232,36 @@ TEST(KickEnvironment, UnsignedSpeedPaysBackwardHits) {
   EXPECT_GT(backward, 10);
 }
 
+// The full throttle of one decision, from rest: two wheels' forces, each no more than torque and grip allow, push the mass
+// and half of each wheel once more, which spins.
+TEST(KickEnvironment, ARobotAcceleratesAsItsDescriptionSays) {
+  core::RobotDescription heavy = core::forward;
+  heavy.body_mass_g = 3700;
+  core::RobotDescription slippery = core::defender;
+  slippery.tyre_friction_percent = 40;
+  for (const core::RobotDescription& robot : {core::forward, core::goalkeeper, heavy, slippery}) {
+    const double weight_N = 9.81 * (robot.body_mass_g + 2 * robot.wheel_mass_g) / 1e3;
+    const double torque_N = 1e3 * robot.torque_limit_mNm / robot.wheel_radius_um;
+    const double force_N = 2.0 * std::min(torque_N, robot.tyre_friction_percent / 1e2 * weight_N / 2.0);
+    const double gain_m_s = physics_step_s * force_N / ((robot.body_mass_g + 3 * robot.wheel_mass_g) / 1e3);
+    double expected_m_s = 0.0;
+    for (int i = 0; i < steps_per_decision; ++i) {
+      expected_m_s = sil::kept_in_10_ms * (expected_m_s + gain_m_s);
+    }
+    ASSERT_LT(expected_m_s, robot.top_rim_speed_mm_s / 1e3);
+    KickEnvironment fast({.robot = robot});
+    fast.reset(1, 0);
+    (void)fast.step(0);
+    EXPECT_NEAR(fast.state().robot_speed_m_s, expected_m_s, 1e-9) << robot.body_mass_g;
+    KickEnvironment full({.robot = robot, .physics = Physics::full});
+    full.reset(1, 0);
+    (void)full.step(0);
+    if (robot != slippery) {  // the skids carry some of the weight while it accelerates
+      EXPECT_NEAR(full.state().robot_speed_m_s, expected_m_s, 0.002) << robot.body_mass_g;
+    }
+    EXPECT_LT(full.state().robot_speed_m_s, expected_m_s + 0.002) << robot.body_mass_g;
+  }
+}
+
 }  // namespace
 }  // namespace striker::training
