@@ -19,8 +19,8 @@
 // fresh ages by the jump. The same tick twice lets no time pass: a port uses it to hand in a fault or a stop
 // between two ticks. A tick that goes back is a fault.
 //
-// Arming wants state standby, pictures that tell a velocity since the last disarm, fresh wheel speeds, and consent in two steps
-// (consent.hpp). It lasts `armed_limit_ticks` and is prolonged by a renewal. Disarming, not arming, forgets the
+// Arming wants state standby, pictures since the last disarm that tell a velocity, fresh wheel speeds, and consent in
+// two steps (consent.hpp). It lasts `armed_limit_ticks` and is prolonged by a renewal. Disarming, not arming, forgets the
 // pictures: so those that arming waits for give the first decision its velocity, and nothing from before the
 // disarm can. A port's stop is a disarm in every respect.
 //

@@ -3,9 +3,9 @@
 // second and without velocities, and wheel speeds every tick (odometry.hpp).
 //
 // The ball's velocity is the difference of two complete pictures over the time between their numbers: of the last two,
-// or of those about a decision apart where the camera is faster (span_a_decision), as noise and rounding would grow with
-// the rate. Between pictures the ball is led on along its velocity, and the robot along its heading by its
-// wheel speeds. Positions in um; a speed in mm/s times a tick of 1 ms is a distance in um.
+// or of those about a decision apart where the camera is faster (span_a_decision): noise and rounding would grow with the
+// rate. Between pictures the ball is led on along its velocity, and the robot along its heading by its wheel
+// speeds. Positions in um; a speed in mm/s times a tick of 1 ms is a distance in um.
 //
 // A picture shows what was when it was taken: the profile's camera latency before it was received. It counts, for
 // being fresh, from when it was received. One whose number does not fit the time since the last one, or that

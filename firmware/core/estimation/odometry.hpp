@@ -3,9 +3,9 @@
 // a distance in um.
 //
 // A picture comes when the robot has moved on. So the way is marked at the ticks at which pictures are expected to be
-// taken, a period apart; the last marks are kept, and the one nearest to when a picture was taken tells how far the robot
-// had come. That serves the latencies of every described camera with the exact way, and any jitter of a few ms by the
-// speed.
+// taken, a period apart; the last marks are kept, and the one nearest to when a picture was taken tells how far the
+// robot had come. That serves the latencies of every described camera with the exact way, and any jitter of a few ms by
+// the speed.
 #pragma once
 
 #include <algorithm>
