@@ -19,9 +19,9 @@
 // fresh ages by the jump. The same tick twice lets no time pass: a port uses it to hand in a fault or a stop
 // between two ticks. A tick that goes back is a fault.
 //
-// Arming wants state standby, two pictures since the last disarm, fresh wheel speeds, and consent in two steps
-// (consent.hpp). It lasts `armed_limit_ticks` and is prolonged by a renewal. Disarming, not arming, forgets the
-// pictures: so the two that arming waits for give the first decision its velocity, and nothing from before the
+// Arming wants state standby, pictures since the last disarm that tell a velocity, fresh wheel speeds, and consent in
+// two steps (consent.hpp). It lasts `armed_limit_ticks` and is prolonged by a renewal. Disarming, not arming, forgets the
+// pictures: so those that arming waits for give the first decision its velocity, and nothing from before the
 // disarm can. A port's stop is a disarm in every respect.
 //
 // The state is sealed between two steps (seal.hpp): a bit of it that changes by itself is found before it is used.
@@ -211,7 +211,7 @@ class Controller {
         now_.vigilance.see_impossible_wheels();
       }
     }
-    now_.odometry.advance(now_.tick);
+    now_.odometry.advance(now_.robot, now_.tick);
     now_.new_picture = 0;
     if (percepts.robot || percepts.ball) {
       take_picture(percepts);
@@ -229,8 +229,7 @@ class Controller {
     const PictureResult result = estimator.end_tick(now_.robot, now_.odometry);
     now_.vigilance.see_picture(result, estimator.picture_tick(), now_.tick);
     now_.has_velocity = static_cast<std::uint32_t>(estimator.has_velocity());
-    now_.new_picture =
-        static_cast<std::uint32_t>(result == PictureResult::taken || result == PictureResult::mismatched);
+    now_.new_picture = static_cast<std::uint32_t>(is_new(result));
   }
 
   // The only place where a state begins: faults get their stamp, and arming begins anew.
@@ -266,7 +265,8 @@ class Controller {
     if (now_.supervisor.state != State::active) {
       return std::nullopt;
     }
-    const DecisionDue due = now_.clock.at(now_.tick, now_.new_picture != 0);
+    const DecisionDue due =
+        now_.clock.at(now_.tick, now_.new_picture != 0, decides_on_each_picture(now_.robot));
     if (due == DecisionDue::no) {
       return std::nullopt;
     }

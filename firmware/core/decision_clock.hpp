@@ -4,6 +4,9 @@
 // A new picture within `decision_window_ticks` of the expected time decides in its own tick and restarts the
 // count. Without one the count runs free, and decides on extrapolated positions, until the freshness limit
 // ends that elsewhere. A picture that comes just after such a decision decides again: its figures are better.
+//
+// With a camera of another rate the count always runs free, from the first picture on: to follow pictures that are not
+// due with a decision would change its period, and the newest one is led on by less than the time between two.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +28,11 @@ class DecisionClock {
   [[nodiscard]] bool started() const { return awaits_first_picture_ == 0; }
 
   // Once a tick, while armed.
-  [[nodiscard]] DecisionDue at(std::uint32_t tick, bool new_picture) {
+  [[nodiscard]] DecisionDue at(std::uint32_t tick, bool new_picture, bool on_each_picture) {
     const std::uint32_t phase = tick - decision_tick_;
-    const bool early_enough = phase >= decision_period_ticks - decision_window_ticks;
-    const bool late_for_extrapolated = last_extrapolated_ != 0 && phase <= decision_window_ticks;
+    const bool early_enough = phase >= decision_period_ticks - (on_each_picture ? decision_window_ticks : 0);
+    const bool late_for_extrapolated =
+        on_each_picture && last_extrapolated_ != 0 && phase <= decision_window_ticks;
     if (new_picture && (awaits_first_picture_ != 0 || early_enough || late_for_extrapolated)) {
       awaits_first_picture_ = 0;
       last_extrapolated_ = 0;

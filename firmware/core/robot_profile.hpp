@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "firmware/core/tick.hpp"
+
 namespace striker::core {
 
 struct RobotDescription {
@@ -24,6 +26,7 @@ struct RobotDescription {
   std::int32_t torque_limit_mNm;             // of each wheel
   std::int32_t top_rim_speed_mm_s;           // of each wheel
   std::int32_t camera_latency_ms = 0;        // from a picture to its frames: 0 to 50
+  std::int32_t camera_rate_Hz = 20;          // pictures a second: 10 to 100
   std::int32_t tyre_friction_percent = 300;  // Coulomb, between tyre and floor: 300 is a coefficient of 3.0
   std::int32_t command_delay_ms = 0;         // from a command's frame to the torque: 0 to 50
 
@@ -53,6 +56,11 @@ inline constexpr RobotDescription forward = {.body_mass_g = 1500,
 inline constexpr std::int32_t greatest_delay_ticks = 50;
 inline constexpr std::int32_t torque_steps = 127;  // of the limit, in which pending torque is kept
 
+// Of the camera. Slower, two pictures would be further apart than what is fresh (percepts.hpp). Faster, the same number
+// would come again within that time.
+inline constexpr std::int32_t least_picture_period_us = 10'000;
+inline constexpr std::int32_t greatest_picture_period_us = 100'000;
+
 struct RobotProfile {
   std::int32_t torque_limit_mNm = 0;
   std::int32_t top_rim_speed_mm_s = 0;  // no set-point beyond it
@@ -61,6 +69,7 @@ struct RobotProfile {
   std::int32_t ki_tick_q16 = 0;         // mNm for a mm/s and a tick
   std::int32_t slip_gain_q12 = 0;  // the most that a mNm on both wheels adds in a tick, in mm/s: gripping
   std::int32_t camera_latency_ticks = 0;
+  std::int32_t picture_period_us = decision_period_us;
   std::int32_t command_delay_ticks = 0;
   std::int32_t pending_gain_q12 = 0;  // what a step of torque on both wheels adds in a tick, in mm/s
   std::int32_t turn_q12 = 0;          // binary angle for a um that the right rim is ahead of the left
@@ -111,9 +120,21 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
       .ki_tick_q16 = rounded_ratio(65'536 * (crossover * kp_e9 / 10), ticks_a_second * e9),
       .slip_gain_q12 = rounded_ratio(4'096 * grip_percent * 2'000'000 / 100, radius_mass),
       .camera_latency_ticks = robot.camera_latency_ms,
+      .picture_period_us = rounded_ratio(1'000'000, robot.camera_rate_Hz),
       .command_delay_ticks = robot.command_delay_ms,
       .pending_gain_q12 = rounded_ratio(8'192'000'000 * robot.torque_limit_mNm, torque_steps * radius_mass),
       .turn_q12 = rounded_ratio(4'096 * circle_um_e3, 1'000 * std::int64_t{robot.axle_length_um})};
+}
+
+// The ball's speed and the robot's are measured over about the time between two decisions, as in training: from a
+// picture to the first that comes as near to that as any. The other pictures tell places alone.
+[[nodiscard]] constexpr bool span_a_decision(const RobotProfile& robot, std::int32_t pictures) {
+  return pictures * robot.picture_period_us + robot.picture_period_us / 2 > decision_period_us;
+}
+
+// Every picture is one decision's.
+[[nodiscard]] constexpr bool decides_on_each_picture(const RobotProfile& robot) {
+  return robot.picture_period_us == decision_period_us;
 }
 
 inline constexpr std::int32_t greatest_measured_mm_s = 8'000;
@@ -129,8 +150,9 @@ inline constexpr std::int32_t greatest_measured_mm_s = 8'000;
   }
   constexpr std::int64_t greatest = std::numeric_limits<std::int32_t>::max();
   if (robot.camera_latency_ticks < 0 || robot.camera_latency_ticks > greatest_delay_ticks ||
-      robot.command_delay_ticks < 0 || robot.command_delay_ticks > greatest_delay_ticks ||
-      robot.pending_gain_q12 <= 0 ||
+      robot.picture_period_us < least_picture_period_us ||
+      robot.picture_period_us > greatest_picture_period_us || robot.command_delay_ticks < 0 ||
+      robot.command_delay_ticks > greatest_delay_ticks || robot.pending_gain_q12 <= 0 ||
       std::int64_t{greatest_delay_ticks} * torque_steps * robot.pending_gain_q12 > greatest ||
       robot.slip_gain_q12 <= 0 || std::int64_t{robot.slip_gain_q12} * robot.torque_limit_mNm > greatest) {
     return false;
@@ -155,6 +177,7 @@ static_assert(profile_of(forward) == RobotProfile{.torque_limit_mNm = 400,
                                                   .ki_tick_q16 = 2359,   // 36 mNm/(mm/s)/s at 1 kHz
                                                   .slip_gain_q12 = 171,  // 0.0417 mm/s
                                                   .camera_latency_ticks = 0,
+                                                  .picture_period_us = 50'000,
                                                   .command_delay_ticks = 0,
                                                   .pending_gain_q12 = 358,  // 0.0875 mm/s
                                                   .turn_q12 = 305});

@@ -30,6 +30,7 @@ inline constexpr std::array robot_keys = {
     RobotKey{"torque_limit_mNm", &RobotDescription::torque_limit_mNm, 10, 2'000},
     RobotKey{"top_rim_speed_mm_s", &RobotDescription::top_rim_speed_mm_s, 100, 4'000},
     RobotKey{"camera_latency_ms", &RobotDescription::camera_latency_ms, 0, 50, true},
+    RobotKey{"camera_rate_Hz", &RobotDescription::camera_rate_Hz, 10, 100, true},
     RobotKey{"command_delay_ms", &RobotDescription::command_delay_ms, 0, 50, true},
     RobotKey{"tyre_friction_percent", &RobotDescription::tyre_friction_percent, 10, 1'000, true}};
 

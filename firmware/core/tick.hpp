@@ -13,7 +13,7 @@ namespace striker::core {
 inline constexpr std::int32_t tick_us = 1'000;
 inline constexpr std::uint32_t decision_period_ticks = 50;
 
-inline constexpr std::int32_t decision_period_ms =
-    static_cast<std::int32_t>(decision_period_ticks) * tick_us / 1'000;
+inline constexpr std::int32_t decision_period_us = static_cast<std::int32_t>(decision_period_ticks) * tick_us;
+inline constexpr std::int32_t decision_period_ms = decision_period_us / 1'000;
 
 }  // namespace striker::core

@@ -132,6 +132,7 @@ class KickSession {
                    .place = {.robot = varied(spec_of(robot_), variation_),
                              .ball_kept_after_1_s = ball_kept_after_1_s(variation_)},
                    .vision_latency_ticks = variation_.vision_latency_ms.value(),
+                   .camera_rate_Hz = variation_.camera_rate_Hz.value(),
                    .needs_controller = options.real_time},
                   seat_, observers) {}
 

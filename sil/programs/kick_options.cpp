@@ -34,7 +34,7 @@ void define_episodes(CLI::App& kick, KickOptions& options) {
   kick.add_option(
       "--vary", options.vary,
       "another robot than the controller was told: mass=0.9,friction=0.5,vision_latency_ms=35 (shares: mass, "
-      "torque, friction, ball_damping; vision_noise_mm, vision_latency_ms, command_delay_ms)");
+      "torque, friction, ball_damping; vision_noise_mm, vision_latency_ms, command_delay_ms; camera_rate_Hz)");
   kick.add_option("--episodes", options.episodes, "how many")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{900000}))
       ->capture_default_str();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/robot/seat.hpp"
 
+#include <algorithm>
+
 #include "firmware/loop/tick.hpp"
 
 namespace striker::sil {
@@ -8,14 +10,17 @@ namespace striker::sil {
 Seat::Seat(const SeatParts& parts) : parts_(parts) {}
 
 void Seat::take_picture(const World& world, std::uint32_t tick, std::uint32_t latency_ticks) {
-  late_.push_back({tick + latency_ticks, vision_.frames(parts_.camera.look(world))});
+  const Late late{tick + latency_ticks, parts_.camera.look(world)};
+  const auto leaves_sooner = [](const Late& one, const Late& other) { return one.tick < other.tick; };
+  late_.insert(std::upper_bound(late_.begin(), late_.end(), late, leaves_sooner), late);
 }
 
 void Seat::begin_tick(std::uint32_t tick) {
   answer_.clear();
   traffic_.clear();
   for (; !late_.empty() && late_.front().tick <= tick; late_.pop_front()) {
-    queued_.insert(queued_.end(), late_.front().frames.begin(), late_.front().frames.end());
+    const auto frames = vision_.frames(late_.front().picture);
+    queued_.insert(queued_.end(), frames.begin(), frames.end());
   }
   if (tick != 0) {
     parts_.drives.report(parts_.plant.measured(), tick, queued_);

@@ -11,7 +11,6 @@
 // a fault is another plant, drives, camera or link in the same place.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -43,7 +42,8 @@ class Seat {
 
   // Sent with the next `begin_tick`, in this order.
   void queue(const can::Frame& frame) { queued_.push_back(frame); }
-  // Its frames leave in `latency_ticks`; a robot that is placed anew forgets those that have not.
+  // Its frames leave in `latency_ticks`; a robot that is placed anew forgets those that have not,
+  // and their numbers with them.
   void take_picture(const World& world, std::uint32_t tick, std::uint32_t latency_ticks = 0);
 
   void begin_tick(std::uint32_t tick);
@@ -73,9 +73,9 @@ class Seat {
   can::SendCounter sync_counter_;
   struct Late {
     std::uint32_t tick;
-    std::array<can::Frame, 2> frames;
+    Picture picture;
   };
-  std::deque<Late> late_;
+  std::deque<Late> late_;  // by their ticks
   std::vector<can::Frame> queued_;
   std::vector<can::Frame> answer_;
   std::vector<StampedFrame> traffic_;

@@ -30,17 +30,16 @@ constexpr std::array shares = {Share{"mass", &Variation::mass, 0.2, 5.0},
                                Share{"ball_damping", &Variation::ball_damping, 0.0, 10.0},
                                Share{"vision_noise_mm", &Variation::vision_noise_mm, 0.0, 50.0}};
 
-struct Time {
+struct Whole {
   std::string_view name;
-  void (*set)(Variation&, std::uint32_t);
+  std::optional<std::uint32_t> Variation::*member;
+  double least;
+  double greatest;
 };
-// A picture later than this would be one of the episode before.
-constexpr double greatest_time_ms = 50.0;
-constexpr std::array times = {
-    Time{"vision_latency_ms",
-         [](Variation& variation, std::uint32_t ms) { variation.vision_latency_ms = ms; }},
-    Time{"command_delay_ms",
-         [](Variation& variation, std::uint32_t ms) { variation.command_delay_ms = ms; }}};
+// A picture later than 50 ms would be one of the episode before.
+constexpr std::array wholes = {Whole{"vision_latency_ms", &Variation::vision_latency_ms, 0.0, 50.0},
+                               Whole{"command_delay_ms", &Variation::command_delay_ms, 0.0, 50.0},
+                               Whole{"camera_rate_Hz", &Variation::camera_rate_Hz, 10.0, 100.0}};
 
 double number_of(std::string_view name, std::string_view text, double least, double greatest) {
   double value = 0.0;
@@ -59,19 +58,19 @@ void set(Variation& variation, std::string_view name, std::string_view value) {
       return;
     }
   }
-  for (const Time& time : times) {
-    if (time.name == name) {
-      const double milliseconds = number_of(name, value, 0.0, greatest_time_ms);
-      if (milliseconds != std::floor(milliseconds)) {
-        throw std::runtime_error(fmt::format("--vary {}={}: give whole milliseconds", name, value));
+  for (const Whole& whole : wholes) {
+    if (whole.name == name) {
+      const double number = number_of(name, value, whole.least, whole.greatest);
+      if (number != std::floor(number)) {
+        throw std::runtime_error(fmt::format("--vary {}={}: give a whole number", name, value));
       }
-      time.set(variation, static_cast<std::uint32_t>(milliseconds));
+      variation.*whole.member = static_cast<std::uint32_t>(number);
       return;
     }
   }
   throw std::runtime_error(
       fmt::format("--vary {}: there is mass, torque, friction, ball_damping (shares: 0.9 is 10 % less), "
-                  "vision_noise_mm, vision_latency_ms and command_delay_ms",
+                  "vision_noise_mm, vision_latency_ms, command_delay_ms and camera_rate_Hz",
                   name));
 }
 
@@ -116,9 +115,10 @@ Variation variation_of(const std::string& text) {
 }
 
 Variation completed(Variation variation, const core::RobotDescription& described) {
-  const auto in_ms = [](std::int32_t ms) { return static_cast<std::uint32_t>(ms); };
-  variation.vision_latency_ms = variation.vision_latency_ms.value_or(in_ms(described.camera_latency_ms));
-  variation.command_delay_ms = variation.command_delay_ms.value_or(in_ms(described.command_delay_ms));
+  const auto whole = [](std::int32_t number) { return static_cast<std::uint32_t>(number); };
+  variation.vision_latency_ms = variation.vision_latency_ms.value_or(whole(described.camera_latency_ms));
+  variation.command_delay_ms = variation.command_delay_ms.value_or(whole(described.command_delay_ms));
+  variation.camera_rate_Hz = variation.camera_rate_Hz.value_or(whole(described.camera_rate_Hz));
   return variation;
 }
 

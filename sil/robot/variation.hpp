@@ -29,6 +29,7 @@ struct Variation {
   // Nothing: as described.
   std::optional<std::uint32_t> vision_latency_ms = {};  // from the picture to its frames
   std::optional<std::uint32_t> command_delay_ms = {};   // from the command's frame to the motors
+  std::optional<std::uint32_t> camera_rate_Hz = {};
 
   bool operator==(const Variation&) const = default;
 };
@@ -36,7 +37,7 @@ struct Variation {
 // From "mass=0.9,torque=1.1". Throws std::runtime_error that names what is wrong and what there is.
 [[nodiscard]] Variation variation_of(const std::string& text);
 
-// With the description's delays for those that are not varied.
+// With the description's delays and rate for those that are not varied.
 [[nodiscard]] Variation completed(Variation variation, const core::RobotDescription& described);
 
 [[nodiscard]] RobotSpec varied(const RobotSpec& described, const Variation& variation);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as frames: exact positions every 50 ms (an AI Soccer frame), no velocities, rounded to the signals'
+// Pictures as frames: positions without velocities, rounded to the signals'
 // counts. Pose and ball of one picture share a 4-bit frame number.
 #pragma once
 

@@ -92,7 +92,8 @@ Play play(const std::vector<TimedFault>& faults, double torque_scale, const Faul
                          .first_episode = options.episode,
                          .episodes = episodes,
                          .place = {.robot = robot},
-                         .vision_latency_ticks = as_described.vision_latency_ms.value()},
+                         .vision_latency_ticks = as_described.vision_latency_ms.value(),
+                         .camera_rate_Hz = as_described.camera_rate_Hz.value()},
                         seat.seat(), observers);
   scenario.run([] { return false; });
   Play played{.result = {}, .outcomes = scenario.outcomes()};

@@ -11,9 +11,28 @@ namespace striker::sil {
 
 namespace {
 
-constexpr std::uint32_t picture_ticks = core::decision_period_ticks;  // an AI Soccer frame
+constexpr std::uint32_t second_ticks = 1'000;
+constexpr std::uint32_t official_rate_Hz = second_ticks / core::decision_period_ticks;  // an AI Soccer frame
 constexpr std::uint32_t clear_tick = 20;
-constexpr std::uint32_t arm_tick = picture_ticks + 1;
+
+std::uint32_t picture_ticks_with(std::uint32_t rate_Hz) {
+  return (second_ticks + rate_Hz - 1) / rate_Hz;
+}
+
+// Four pictures, and the controller believes its camera.
+std::uint32_t boot_ticks_with(std::uint32_t rate_Hz) {
+  return std::max(kick_boot_ticks, 4 * picture_ticks_with(rate_Hz));
+}
+
+// Two pictures before it.
+std::uint32_t first_decision_tick_with(std::uint32_t rate_Hz) {
+  return std::max(kick_first_decision_tick, 2 * picture_ticks_with(rate_Hz));
+}
+
+// When the official camera has told a velocity. Others have within 67 ms, or with their second picture.
+std::uint32_t arm_tick_with(std::uint32_t rate_Hz) {
+  return first_decision_tick_with(rate_Hz) - (rate_Hz == official_rate_Hz ? 49 : 29);
+}
 
 }  // namespace
 
@@ -21,7 +40,9 @@ KickScenario::KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer*
     : plan_(plan),
       seat_(&seat),
       observers_(observers),
-      world_(kick_world(seat.ticks_per_step() * tick_s, plan.place)) {
+      world_(kick_world(seat.ticks_per_step() * tick_s, plan.place)),
+      first_decision_tick_(first_decision_tick_with(plan.camera_rate_Hz)),
+      arm_tick_(arm_tick_with(plan.camera_rate_Hz)) {
   look();
 }
 
@@ -54,10 +75,21 @@ void KickScenario::play(const std::function<bool()>& stop) {
   run_tick();
 }
 
+std::uint32_t KickScenario::last_tick() const {
+  return first_decision_tick_ + (kick_last_tick - kick_first_decision_tick);
+}
+
+// In this tick, if there is one in `with_tick`; that may be up to a second later.
+bool KickScenario::picture_is_due(std::uint32_t tick, std::uint32_t with_tick) const {
+  const std::uint32_t since_ticks = tick + second_ticks - with_tick;
+  return since_ticks * plan_.camera_rate_Hz / second_ticks !=
+         (since_ticks - 1) * plan_.camera_rate_Hz / second_ticks;
+}
+
 // Returns false if it was stopped.
 bool KickScenario::boot(const std::function<bool()>& stop) {
-  while (tick_ < kick_boot_ticks) {
-    if (tick_ % picture_ticks == 0) {
+  while (tick_ < boot_ticks_with(plan_.camera_rate_Hz)) {
+    if (picture_is_due(tick_, 0)) {
       seat_->take_picture(world_, tick_);
     }
     run_tick();
@@ -81,9 +113,9 @@ bool KickScenario::play_episode(std::uint64_t episode, const std::function<bool(
   undecided_ticks_ = 0;
   longest_undecided_ticks_ = 0;
   seat_->reset();
-  for (std::uint32_t episode_tick = 0; episode_tick < kick_episode_ticks; ++episode_tick) {
+  for (std::uint32_t episode_tick = 0; episode_tick < last_tick() + ticks_to_see_it_leave; ++episode_tick) {
     place(episode_tick, start);
-    snapshot_.deciding = episode_tick >= kick_first_decision_tick && episode_tick < kick_last_tick;
+    snapshot_.deciding = episode_tick >= first_decision_tick_ && episode_tick < last_tick();
     snapshot_.contact = moving_ && episode_.outcome().contact;
     give_orders(episode_tick);
     take_picture(episode_tick, start);
@@ -107,14 +139,15 @@ void KickScenario::place(std::uint32_t episode_tick, const KickStart& start) {
   if (episode_tick == 0) {
     world_.place_robot(0, start.robot);
   }
-  if (episode_tick < kick_first_decision_tick) {
-    world_.place_ball(ball_before(start, (kick_first_decision_tick - episode_tick) * tick_s));
+  if (episode_tick < first_decision_tick_) {
+    world_.place_ball(ball_before(start, (first_decision_tick_ - episode_tick) * tick_s));
     look();
-  } else if (episode_tick == kick_first_decision_tick) {
+  } else if (episode_tick == first_decision_tick_) {
     episode_.begin(world_, start);
     look();
     moving_ = true;
-  } else if (episode_tick <= kick_last_tick && episode_tick % core::decision_period_ticks == 0) {
+  } else if (episode_tick <= last_tick() &&
+             (episode_tick - first_decision_tick_) % core::decision_period_ticks == 0) {
     episode_.end_decision();
   }
 }
@@ -124,7 +157,7 @@ void KickScenario::give_orders(std::uint32_t episode_tick) {
     seat_->queue(operator_.order(can::Mode::disarm));
   } else if (episode_tick == clear_tick && operator_.controller_fault() != core::Fault::none) {
     seat_->queue(operator_.order(can::Mode::clear));
-  } else if (episode_tick == arm_tick) {
+  } else if (episode_tick == arm_tick_) {
     seat_->queue(operator_.order(can::Mode::arm));
   }
 }
@@ -133,14 +166,14 @@ void KickScenario::give_orders(std::uint32_t episode_tick) {
 // it was then; the robot stands.
 void KickScenario::take_picture(std::uint32_t episode_tick, const KickStart& start) {
   const std::uint32_t latency_ticks = plan_.vision_latency_ticks;
-  if (episode_tick <= kick_first_decision_tick && episode_tick % picture_ticks == 0) {
-    const double ahead_s = (kick_first_decision_tick - episode_tick) * tick_s;
+  if (episode_tick <= first_decision_tick_ && picture_is_due(episode_tick, first_decision_tick_)) {
+    const double ahead_s = (first_decision_tick_ - episode_tick) * tick_s;
     world_.place_ball(ball_before(start, ahead_s + latency_ticks * tick_s));
     seat_->take_picture(world_, tick_);
     world_.place_ball(ball_before(start, ahead_s));
   }
-  if (episode_tick + latency_ticks > kick_first_decision_tick &&
-      (episode_tick + latency_ticks) % picture_ticks == 0) {
+  if (episode_tick + latency_ticks > first_decision_tick_ &&
+      picture_is_due(episode_tick + latency_ticks, first_decision_tick_)) {
     seat_->take_picture(world_, tick_, latency_ticks);
   }
 }

@@ -3,10 +3,11 @@
 // taken, and when the world moves.
 //
 // An episode takes 2,200 ticks: disarm and the first picture; 50 ticks later the second, then arm; 50 later
-// the third, which is decision 0 and starts the ball; 40 decisions; 100 ticks to see the ball leave. Until
+// the third, which is decision 0 and starts the ball; 40 decisions; 100 ticks to see the ball leave. A faster camera
+// shows more in the same time; a slower one gets the time for three pictures. Until
 // decision 0 the robot is held and the ball led along its path. A latched fault is cleared before arming.
 // Arming and clearing take two steps: the controller's challenge is confirmed in the tick after it came. An emergency
-// stop is never cleared: it ends the run. The boot takes 200 ticks with pictures, until the controller believes its
+// stop is never cleared: it ends the run. The boot takes 200 ticks, or four pictures, until the controller believes its
 // camera; tick 0 is SYNC and a picture.
 #pragma once
 
@@ -24,21 +25,23 @@
 
 namespace striker::sil {
 
-// Of the run, then of an episode.
+// Of the run, then of an episode with the official camera.
 inline constexpr std::uint32_t kick_boot_ticks = 200;
 inline constexpr std::uint32_t kick_first_decision_tick = 2 * core::decision_period_ticks;
 inline constexpr std::uint32_t kick_last_tick =
     kick_first_decision_tick + kick_decisions * core::decision_period_ticks;
-inline constexpr std::uint32_t kick_episode_ticks = kick_last_tick + 100;
+inline constexpr std::uint32_t ticks_to_see_it_leave = 100;
+inline constexpr std::uint32_t kick_episode_ticks = kick_last_tick + ticks_to_see_it_leave;
 
 struct KickPlan {
   PoseMode pose = PoseMode::origin;
   std::uint64_t seed = 1;
   std::uint64_t first_episode = 0;
   std::uint64_t episodes = 20;
-  KickPlace place = {};  // with another robot or ball than the official ones
-  std::uint32_t vision_latency_ticks =
-      0;                          // at most a decision: pictures are taken so much before each decision
+  KickPlace place = {};                    // with another robot or ball than the official ones
+  std::uint32_t vision_latency_ticks = 0;  // at most a decision: pictures are taken so much before they come
+  // Pictures come in the ticks that reach n / rate, one of them with decision 0.
+  std::uint32_t camera_rate_Hz = 20;
   bool needs_controller = false;  // one that says nothing during the boot is an error, as on a wall clock
 };
 
@@ -64,6 +67,8 @@ class KickScenario {
 
  private:
   void play(const std::function<bool()>& stop);
+  [[nodiscard]] std::uint32_t last_tick() const;
+  [[nodiscard]] bool picture_is_due(std::uint32_t tick, std::uint32_t with_tick) const;
   bool boot(const std::function<bool()>& stop);
   bool play_episode(std::uint64_t episode, const std::function<bool()>& stop);
   void place(std::uint32_t episode_tick, const KickStart& start);
@@ -80,6 +85,8 @@ class KickScenario {
   std::span<Observer* const> observers_;
   World world_;
   Operator operator_;
+  std::uint32_t first_decision_tick_;  // of an episode
+  std::uint32_t arm_tick_;
 
   std::uint32_t tick_ = 0;
   KickEpisode episode_;

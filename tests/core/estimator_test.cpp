@@ -19,7 +19,7 @@ struct Bench {
   RobotProfile told = profile;
 
   PictureResult end_tick(std::uint32_t tick) {
-    odometry.advance(tick);
+    odometry.advance(told, tick);
     return estimator.end_tick(told, odometry);
   }
   [[nodiscard]] Estimate at(std::uint32_t tick) const { return estimator.at(tick, odometry); }

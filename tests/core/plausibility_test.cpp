@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 namespace striker::core {
 namespace {
 
@@ -104,13 +107,60 @@ TEST(WheelPlausibility, WithLateCommandsAWheelMayBeTwiceAsFastForTwiceTheDelay) 
   EXPECT_TRUE(impossible);
 }
 
-TEST(PicturePlausibility, ANumberFitsItsTimeByLessThanAPeriod) {
-  for (std::int32_t pictures = 1; pictures <= 3; ++pictures) {
-    const auto due = static_cast<std::uint32_t>(50 * pictures);
-    EXPECT_TRUE(number_fits(pictures, due - 45) && number_fits(pictures, due) &&
-                number_fits(pictures, due + 45));
-    EXPECT_FALSE(number_fits(pictures, due - 46) || number_fits(pictures, due + 46));
+constexpr RobotProfile with_camera(std::int32_t rate_Hz) {
+  RobotDescription described = forward;
+  described.camera_rate_Hz = rate_Hz;
+  return profile_of(described);
+}
+
+TEST(PictureTiming, ANumberFitsItsTimeByLessThanAPeriod) {
+  for (const auto& [rate_Hz, period_ms, tolerance_ms] :
+       {std::array{10U, 100U, 90U}, {20U, 50U, 45U}, {50U, 20U, 18U}, {100U, 10U, 9U}}) {
+    const RobotProfile told = with_camera(static_cast<std::int32_t>(rate_Hz));
+    for (std::int32_t pictures = 1; pictures <= 3; ++pictures) {
+      const std::uint32_t due = period_ms * static_cast<std::uint32_t>(pictures);
+      const auto fits = [&](std::uint32_t ticks) { return PictureTiming{}.fits(told, pictures, ticks); };
+      EXPECT_TRUE(fits(due - tolerance_ms) && fits(due) && fits(due + tolerance_ms)) << rate_Hz;
+      EXPECT_FALSE(fits(due - tolerance_ms - 1) || fits(due + tolerance_ms + 1)) << rate_Hz;
+    }
   }
+}
+
+// How many pictures of a camera are believed, of 1,000 at a rate, if each comes late or early by so much by turns.
+int believed(const RobotProfile& told, double rate_Hz, int jitter_ms) {
+  PictureTiming timing;
+  const auto comes_at = [&](int picture) {
+    return static_cast<std::uint32_t>(1'000 + std::ceil(picture * 1'000.0 / rate_Hz) +
+                                      (picture % 2 == 0 ? jitter_ms : -jitter_ms));
+  };
+  for (int picture = 1; picture <= 1'000; ++picture) {
+    const std::uint32_t elapsed = comes_at(picture) - comes_at(picture - 1);
+    if (!timing.fits(told, 1, elapsed)) {
+      return picture;
+    }
+    timing.take(told, 1, elapsed);
+  }
+  return 1'000;
+}
+
+TEST(PictureTiming, JitterAndARateThatIsNotExactAreBelieved) {
+  for (const std::int32_t rate_Hz : {10, 20, 30, 50, 60, 75, 90, 100}) {
+    const RobotProfile told = with_camera(rate_Hz);
+    for (const double factor : {0.96, 0.999, 1.0, 1.001, 1.04}) {
+      EXPECT_EQ(believed(told, factor * rate_Hz, 2), 1'000) << factor << " of " << rate_Hz << " Hz";
+    }
+  }
+}
+
+TEST(PictureTiming, ACameraOfAnotherRateIsNotBelievedForLong) {
+  for (const std::int32_t rate_Hz : {10, 20, 30, 50, 60, 75, 90, 100}) {
+    const RobotProfile told = with_camera(rate_Hz);
+    for (const double factor : {0.33, 0.5, 0.8, 0.9, 1.1, 1.2, 1.5, 2.0, 3.0}) {
+      EXPECT_LT(believed(told, factor * rate_Hz, 0), 40) << factor << " of " << rate_Hz << " Hz";
+    }
+  }
+  EXPECT_LE(believed(with_camera(20), 60.0, 0), 3);
+  EXPECT_LE(believed(with_camera(60), 20.0, 0), 1);
 }
 
 // In every direction, on an arc, with axle and radius 10 % off.
@@ -120,7 +170,7 @@ TEST(PicturePlausibility, WheelsAgreeWithARobotTenPercentOff) {
       Odometry odometry;
       odometry.take({2'000, 2'400});
       for (std::uint32_t tick = 1; tick <= 50; ++tick) {
-        odometry.advance(tick);
+        odometry.advance(robot, tick);
       }
       // 110 mm along an arc of 20 mm between the rims on 140 mm: 0.143 rad.
       const double turned = off * 0.142857 * 10'430.4;

@@ -107,6 +107,8 @@ TEST(WheelLoop, ARobotWhoseNumbersDoNotFitIsRefused) {
   EXPECT_TRUE(refused([](RobotProfile& it) { it.top_rim_speed_mm_s = 8001; }));
   EXPECT_TRUE(refused([](RobotProfile& it) { it.camera_latency_ticks = 51; }));
   EXPECT_TRUE(refused([](RobotProfile& it) { it.camera_latency_ticks = -1; }));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.picture_period_us = 9'999; }));
+  EXPECT_TRUE(refused([](RobotProfile& it) { it.picture_period_us = 100'001; }));
   EXPECT_TRUE(refused([](RobotProfile& it) { it.command_delay_ticks = 51; }));
   EXPECT_TRUE(refused([](RobotProfile& it) { it.command_delay_ticks = -1; }));
   EXPECT_TRUE(refused([](RobotProfile& it) { it.slip_gain_q12 = -1; }));

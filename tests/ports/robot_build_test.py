@@ -21,14 +21,17 @@ axle_length_um=200_000
 torque_limit_mNm = 600
 top_rim_speed_mm_s = 2_600
 camera_latency_ms = 35
+camera_rate_Hz = 60
 """
 # That all of them arrived, and what was left out is as usual.
 HOLDS = """#include "firmware/loop/built_in_node.hpp"
 static_assert(striker::loop::built_in_description ==
               striker::core::RobotDescription{.body_mass_g = 2500, .wheel_mass_g = 120, .wheel_radius_um = 50'000,
                                               .axle_length_um = 200'000, .torque_limit_mNm = 600,
-                                              .top_rim_speed_mm_s = 2600, .camera_latency_ms = 35});
+                                              .top_rim_speed_mm_s = 2600, .camera_latency_ms = 35,
+                                              .camera_rate_Hz = 60});
 static_assert(striker::loop::built_in_robot.torque_limit_mNm == 600);
+static_assert(striker::loop::built_in_robot.picture_period_us == 16'667);
 """
 
 
@@ -68,16 +71,17 @@ class RobotBuild(unittest.TestCase):
         self.assertEqual(self.compiled(OWN, HOLDS), "")
 
     def test_what_is_no_description_is_refused_with_its_place(self):
-        for line, told in (("body_mass_g = 2.5", "line 9: 'body_mass_g = 2.5' is no key with a whole number"),
-                           ("body_mass_g = 0x7D0", "line 9: "), ("body_mass_g = 07", "line 9: "), ("[robot]", "line 9: "),
-                           ("axle_length_um = 1; x = 2", "line 9: "), ("camera_latency_ms = -1", "line 9: "),
-                           ("camera_latency_ms = 1", "line 9: camera_latency_ms stands twice")):
+        for line, told in (("body_mass_g = 2.5", "line 10: 'body_mass_g = 2.5' is no key with a whole number"),
+                           ("body_mass_g = 0x7D0", "line 10: "), ("body_mass_g = 07", "line 10: "), ("[robot]", "line 10: "),
+                           ("axle_length_um = 1; x = 2", "line 10: "), ("camera_latency_ms = -1", "line 10: "),
+                           ("camera_latency_ms = 1", "line 10: camera_latency_ms stands twice")):
             self.assertIn(told, self.header_of(OWN + line + "\n"), line)
 
     def test_what_no_robot_can_be_does_not_compile(self):
         for changes, told in (({"torque_limit_mNm = 600": ""}, "STRIKER ROBOT: a number is missing or out of range"),
                               ({"2_500": "100"}, "STRIKER ROBOT: a number is missing or out of range"),
                               ({"2_500": "99_999_999_999"}, "narrowing conversion"),
+                              ({"camera_rate_Hz = 60": "camera_rate_Hz = 9"}, "STRIKER ROBOT: a number is missing or out of range"),
                               ({"camera_latency_ms": "colour"}, "no member named .colour"),
                               ({"2_500": "100_000", "50_000": "200_000"}, "STRIKER ROBOT: its wheel loops"),
                               ({"2_600": "2_500"}, "STRIKER POLICY: an action goes beyond the robot's top speed")):

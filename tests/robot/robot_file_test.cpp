@@ -37,6 +37,8 @@ std::string problem_of(const std::string& text) {
 
 TEST(RobotFile, ARobotOfOnesOwnIsRead) {
   EXPECT_EQ(problem_of(sound), "");
+  EXPECT_EQ(problem_of(sound + "camera_rate_Hz = 10\n"), "");
+  EXPECT_EQ(problem_of(sound + "camera_rate_Hz = 100\n"), "");
 }
 
 TEST(RobotFile, WhatIsWrongIsNamedWithItsPlace) {
@@ -48,6 +50,9 @@ TEST(RobotFile, WhatIsWrongIsNamedWithItsPlace) {
       {"body_mass_g = 2.2\n" + sound.substr(sound.find('\n') + 1),
        "line 1: body_mass_g must be a whole number"},
       {sound + "camera_latency_ms = 1\n", "line 9: "},
+      {sound + "camera_rate_Hz = 9\n", "line 9: camera_rate_Hz = 9 must be a whole number from 10 to 100"},
+      {sound + "camera_rate_Hz = 101\n", "line 9: camera_rate_Hz = 101 must be a whole number"},
+      {sound + "camera_rate_Hz = 59.94\n", "line 9: camera_rate_Hz must be a whole number"},
       {"= 3", "line 1: "}};
   for (const auto& [text, expected] : cases) {
     const std::string problem = problem_of(text);

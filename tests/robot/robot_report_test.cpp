@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 namespace striker::sil {
 namespace {
@@ -22,8 +23,10 @@ TEST(RobotReport, AForwardsFiguresAreThoseWorkedOutByHand) {
   EXPECT_NEAR(forward.kp_mNm_s_mm, 3.6, 0.01);          // 100 x 0.04 x 1.8 / 2
   EXPECT_NEAR(forward.crossover_rad_s, 100.0, 1.0);
   EXPECT_NEAR(forward.phase_margin_deg, 67.0, 0.5);  // 90 - atan(0.1) - 100 x 0.003 rad
-  EXPECT_NEAR(forward.slip_m_s2, 16.7, 0.1);         // half as much again as the acceleration
-  EXPECT_NEAR(forward.overspeed_m_s, 2.93, 0.01);    // 15 % above the top
+  EXPECT_DOUBLE_EQ(forward.motion_ms, 50.0);
+  EXPECT_DOUBLE_EQ(forward.velocity_step_mm_s, 5.0);  // 0.25 mm in 50 ms
+  EXPECT_NEAR(forward.slip_m_s2, 16.7, 0.1);          // half as much again as the acceleration
+  EXPECT_NEAR(forward.overspeed_m_s, 2.93, 0.01);     // 15 % above the top
 }
 
 // The loop in steps of 0.01 ms, with its delay: does it settle?
@@ -54,6 +57,15 @@ TEST(RobotReport, TheGainMarginIsWhereTheLoopBeginsToSwing) {
     const RobotFigures figures = figures_of(robot);
     EXPECT_TRUE(settles(figures, robot, 0.97 * figures.gain_margin)) << figures.gain_margin;
     EXPECT_FALSE(settles(figures, robot, 1.03 * figures.gain_margin)) << figures.gain_margin;
+  }
+}
+
+TEST(RobotReport, AFastCamerasMotionIsMeasuredOverAboutADecision) {
+  core::RobotDescription robot = core::forward;
+  for (const auto& [rate_Hz, motion_ms] :
+       {std::pair{10, 100.0}, {20, 50.0}, {30, 2e3 / 30.0}, {50, 60.0}, {60, 50.0}, {100, 50.0}}) {
+    robot.camera_rate_Hz = rate_Hz;
+    EXPECT_DOUBLE_EQ(figures_of(robot).motion_ms, motion_ms) << rate_Hz << " Hz";
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "sil/bus/in_process_link.hpp"
@@ -127,6 +128,29 @@ TEST(Seat, ACamerasFaultForgesNoFrame) {
   EXPECT_EQ(pose.y_quarter_mm, -250 * 4);
   EXPECT_EQ(ball.x_quarter_mm, 1100 * 4);
   EXPECT_EQ(ball.y_quarter_mm, 2000 * 4);
+}
+
+// As where an episode's first pictures come at once and later ones late.
+TEST(Seat, PicturesLeaveInTheOrderInWhichTheyAreDueAndAreNumberedSo) {
+  RecordingLink link;
+  Robot robot(link);
+  robot.seat.take_picture(robot.world, 0, 5);
+  robot.seat.reset();
+  robot.seat.take_picture(robot.world, 0, 35);
+  std::vector<std::pair<std::uint32_t, std::int32_t>> seen;
+  for (std::uint32_t tick = 0; tick < 40; ++tick) {
+    if (tick == 10 || tick == 20) {
+      robot.seat.take_picture(robot.world, tick);
+    }
+    robot.seat.begin_tick(tick);
+    can::VisionPose pose;
+    if (can::is<can::VisionPose>(link.sent.front())) {
+      ASSERT_EQ(can::receive(link.sent.front(), pose), can::Verdict::accepted);
+      seen.emplace_back(tick, pose.frame);
+    }
+    robot.seat.end_tick(tick);
+  }
+  EXPECT_EQ(seen, (std::vector<std::pair<std::uint32_t, std::int32_t>>{{10, 0}, {20, 1}, {35, 2}}));
 }
 
 // ---- ten seats -----------------------------------------------------------------------------------------

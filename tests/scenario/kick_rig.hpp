@@ -31,6 +31,7 @@ class KickRig {
     varied_plan.place = {.robot = varied(plan.place.robot, variation_),
                          .ball_kept_after_1_s = ball_kept_after_1_s(variation_)};
     varied_plan.vision_latency_ticks = variation_.vision_latency_ms.value_or(0);
+    varied_plan.camera_rate_Hz = variation_.camera_rate_Hz.value_or(plan.camera_rate_Hz);
     KickScenario scenario(varied_plan, seat_, observers);
     scenario.run(stop);
     undriven = scenario.undriven();

@@ -69,6 +69,31 @@ TEST(VariedRobot, ALateCameraCostsLittleWhereItIsDescribed) {
   EXPECT_EQ(untold.undriven, 0U);
 }
 
+core::RobotDescription forward_with_camera(std::int32_t rate_Hz, std::int32_t latency_ms) {
+  core::RobotDescription robot = core::forward;
+  robot.camera_rate_Hz = rate_Hz;
+  robot.camera_latency_ms = latency_ms;
+  return robot;
+}
+
+TEST(VariedRobot, ACameraOfAnotherRateCostsLittleWhereItIsDescribed) {
+  const double described = play("").mean_reward;
+  const Play told = play("camera_rate_Hz=60,vision_latency_ms=35", forward_with_camera(60, 35));
+  EXPECT_GT(told.mean_reward, described - 0.5);
+  EXPECT_EQ(told.undriven, 0U);
+  for (const std::int32_t rate_Hz : {10, 15, 30, 50, 55, 100}) {
+    const std::string variation = "camera_rate_Hz=" + std::to_string(rate_Hz);
+    EXPECT_EQ(play(variation, forward_with_camera(rate_Hz, 0)).undriven, 0U) << variation;
+  }
+}
+
+TEST(VariedRobot, ACameraOfAnotherRateThanDescribedIsNotBelieved) {
+  EXPECT_EQ(play("camera_rate_Hz=60").undriven, 60U);
+  EXPECT_EQ(play("camera_rate_Hz=10").undriven, 60U);
+  EXPECT_EQ(play("camera_rate_Hz=20", forward_with_camera(60, 0)).undriven, 60U);
+  EXPECT_EQ(play("camera_rate_Hz=25").undriven, 60U);
+}
+
 TEST(VariedRobot, LateCommandsCostLittleWhereTheyAreDescribed) {
   const double described = play("").mean_reward;
   core::RobotDescription late = core::forward;
@@ -86,7 +111,7 @@ TEST(Variation, IsReadOrRefusedByName) {
   EXPECT_EQ(read, (Variation{.mass = 0.9, .vision_noise_mm = 2.5, .vision_latency_ms = 35}));
   EXPECT_EQ(variation_of(""), Variation{});
   for (const std::string wrong : {"mass", "mass=", "mass=nan", "mass=0", "mas=1", "vision_latency_ms=1.5",
-                                  "vision_latency_ms=51", "=1"}) {
+                                  "vision_latency_ms=51", "camera_rate_Hz=9", "camera_rate_Hz=20.5", "=1"}) {
     EXPECT_THROW((void)variation_of(wrong), std::runtime_error) << wrong;
   }
 }

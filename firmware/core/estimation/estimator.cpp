@@ -3,13 +3,9 @@
 
 #include <algorithm>
 
-#include "firmware/core/estimation/plausibility.hpp"
-
 namespace striker::core {
 
 namespace {
-
-constexpr std::int32_t picture_period_ms = decision_period_ms;
 
 // Both halves of a picture leave the camera together.
 constexpr std::uint32_t greatest_apart_ticks = 25;
@@ -44,8 +40,8 @@ PictureResult Estimator::end_tick(const RobotProfile& robot, Odometry& odometry)
     return PictureResult::none;
   }
   const PictureResult result = take_picture(robot, odometry);
-  if (result == PictureResult::taken || result == PictureResult::mismatched) {
-    odometry.restart(taken_tick_);
+  if (is_new(result)) {
+    odometry.restart(robot, taken_tick_);
   }
   return result;
 }
@@ -67,23 +63,40 @@ PictureResult Estimator::take_picture(const RobotProfile& robot, const Odometry&
   if (has_picture_ == 0 || elapsed_ticks > vision_timeout_ticks) {
     has_velocity_ = 0;
     adopt(robot, received_tick);
+    measure_from_here();
     return PictureResult::taken;
   }
   const std::int32_t pictures = (incoming_.number - last_.number) & (picture_numbers - 1);
   if (pictures == 0) {
     return PictureResult::none;
   }
-  if (!number_fits(pictures, elapsed_ticks) || !is_possible(robot, last_, incoming_, pictures)) {
+  if (!timing_.fits(robot, pictures, elapsed_ticks) || !is_possible(robot, last_, incoming_, pictures)) {
     return PictureResult::implausible;
   }
-  const bool agrees =
-      wheels_agree(robot, last_, incoming_, odometry.until(received_tick - camera_latency_of(robot)));
-  const std::int32_t elapsed_ms = pictures * picture_period_ms;
-  ball_velocity_mm_s_ = {(incoming_.ball_um.x - last_.ball_um.x) / elapsed_ms,
-                         (incoming_.ball_um.y - last_.ball_um.y) / elapsed_ms};
-  has_velocity_ = 1;
+  timing_.take(robot, pictures, elapsed_ticks);
   adopt(robot, received_tick);
+  const Way rolled = odometry.until(taken_tick_);
+  pictures_ += pictures;
+  rolled_.travelled_um += rolled.travelled_um;
+  rolled_.turned_um += rolled.turned_um;
+  return span_a_decision(robot, pictures_) ? measure(robot) : PictureResult::between;
+}
+
+// From the reference to the last picture. In units of 8 us no product leaves 32 bits.
+PictureResult Estimator::measure(const RobotProfile& robot) {
+  const bool agrees = wheels_agree(robot, reference_, last_, rolled_);
+  const std::int32_t elapsed_8us = pictures_ * robot.picture_period_us / 8;
+  ball_velocity_mm_s_ = {(last_.ball_um.x - reference_.ball_um.x) * 125 / elapsed_8us,
+                         (last_.ball_um.y - reference_.ball_um.y) * 125 / elapsed_8us};
+  has_velocity_ = 1;
+  measure_from_here();
   return agrees ? PictureResult::taken : PictureResult::mismatched;
+}
+
+void Estimator::measure_from_here() {
+  reference_ = last_;
+  pictures_ = 0;
+  rolled_ = {};
 }
 
 void Estimator::adopt(const RobotProfile& robot, std::uint32_t received_tick) {

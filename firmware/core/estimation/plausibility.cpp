@@ -28,17 +28,28 @@ constexpr std::uint32_t jump_limit_ticks = 2 * jump_hold_ticks;
 constexpr std::uint32_t window_ticks = 16;
 constexpr std::int32_t windows_against = 3;
 
+constexpr std::int32_t kept_pictures = 32;  // of the sum of their lateness
+
+constexpr std::int32_t lateness_us(const RobotProfile& robot, std::int32_t pictures,
+                                   std::uint32_t elapsed_ticks) {
+  return static_cast<std::int32_t>(elapsed_ticks) * tick_us - pictures * robot.picture_period_us;
+}
+
 }  // namespace
 
-bool number_fits(std::int32_t pictures, std::uint32_t elapsed_ticks) {
-  constexpr std::int32_t tolerance_ticks = 45;
-  const auto elapsed = static_cast<std::int32_t>(elapsed_ticks);
-  const auto expected = pictures * static_cast<std::int32_t>(decision_period_ticks);
-  return magnitude(elapsed - expected) <= tolerance_ticks;
+bool PictureTiming::fits(const RobotProfile& robot, std::int32_t pictures,
+                         std::uint32_t elapsed_ticks) const {
+  const std::int32_t late_us = lateness_us(robot, pictures, elapsed_ticks);
+  const std::int32_t tolerance_us = robot.picture_period_us / 10 * 9;
+  return magnitude(late_us) <= tolerance_us && magnitude(late_us_ + late_us) <= 2 * tolerance_us;
+}
+
+void PictureTiming::take(const RobotProfile& robot, std::int32_t pictures, std::uint32_t elapsed_ticks) {
+  late_us_ += lateness_us(robot, pictures, elapsed_ticks) - late_us_ / kept_pictures;
 }
 
 bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& to, std::int32_t pictures) {
-  const std::int32_t elapsed_ms = pictures * decision_period_ms;
+  const std::int32_t elapsed_ms = pictures * robot.picture_period_us / 1'000;
   return !beyond(from.robot_um, to.robot_um, robot.overspeed_mm_s * elapsed_ms + greatest_jump_um) &&
          !beyond(from.ball_um, to.ball_um, greatest_ball_speed_mm_s * elapsed_ms + greatest_jump_um);
 }

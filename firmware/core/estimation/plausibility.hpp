@@ -19,8 +19,20 @@ namespace striker::core {
 inline constexpr std::int32_t greatest_ball_speed_mm_s = 12'000;
 inline constexpr std::int32_t greatest_jump_um = 50'000;  // beyond what the speed explains
 
-// A picture may be earlier or later than its number says by less than a period.
-[[nodiscard]] bool number_fits(std::int32_t pictures, std::uint32_t elapsed_ticks);
+// The camera's numbers against the time. A picture may be earlier or later than its number says by less than a period,
+// and the next one makes up for it. A camera of another rate than described adds up: one that is faster or slower by
+// more than 6 % ends beyond twice that. Sealed: whole words.
+class PictureTiming {
+ public:
+  // So many numbers and ticks after the last picture that was taken.
+  [[nodiscard]] bool fits(const RobotProfile& robot, std::int32_t pictures,
+                          std::uint32_t elapsed_ticks) const;
+  // That one was taken.
+  void take(const RobotProfile& robot, std::int32_t pictures, std::uint32_t elapsed_ticks);
+
+ private:
+  std::int32_t late_us_ = 0;  // summed, and slowly forgotten: a rate is never exact
+};
 
 // Robot and ball could have moved from one picture to the next.
 [[nodiscard]] bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& to,

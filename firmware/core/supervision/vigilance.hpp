@@ -27,7 +27,7 @@ inline constexpr std::uint32_t drives_cut_limit_ticks = 20;
 // Another controller on the bus is a cause for so long after its last frame.
 inline constexpr std::uint32_t second_controller_hold_ticks = 1'000;
 
-// Pictures in a row.
+// Measured motions in a row.
 inline constexpr std::uint32_t mismatch_limit = 2;
 
 // Seven wrong frames more than one in 16 ms.
@@ -61,7 +61,9 @@ class Vigilance {
       vision_.expire(tick, vision_timeout_ticks);
       vision_was_implausible_ = 0;
       vision_was_invalid_ = 0;
-      mismatches_ = result == PictureResult::mismatched ? mismatches_ + 1 : 0;
+      if (result != PictureResult::between) {
+        mismatches_ = result == PictureResult::mismatched ? mismatches_ + 1 : 0;
+      }
     }
   }
   void forget_pictures() {

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/ports/linux/bench_peer.hpp"
 
+#include "firmware/loop/built_in_robot.hpp"
+
 namespace striker::linux_port {
 
 namespace {
 
-constexpr std::uint32_t picture_ticks = can::layout<can::VisionPose>.info.period_ms;
-
-// A round is a kick: the robot stands at the origin, two pictures later it is armed, 40 decisions, and again.
-constexpr std::int32_t round_pictures = 44;
+// A round is a kick: the robot stands at the origin, two decisions' time later it is armed, 40 decisions, and again.
+constexpr std::uint32_t round_ticks = 44 * core::decision_period_ticks;
 constexpr std::uint32_t operator_ticks = 20;
+
+// Of the built-in robot's camera: the number of the last one that was taken by this tick.
+constexpr std::uint64_t picture_at(std::uint64_t tick) {
+  constexpr std::uint64_t second_ticks = 1'000;
+  return tick * static_cast<std::uint64_t>(loop::built_in_description.camera_rate_Hz) / second_ticks;
+}
 
 // With a lag of 64 ticks, so that the wheel loops have torque to ask for.
 std::int32_t follow(std::int32_t speed_mm_s, std::int32_t set_point_mm_s) {
@@ -24,12 +30,12 @@ void BenchPeer::tick(std::int64_t now_ns) {
   }
   bus_->send_to_controller(can::send(wheels_, wheel_counter_), now_ns);
   travelled_um_ += (wheels_.left_mm_s + wheels_.right_mm_s) / 2;
-  if (tick_ % (picture_ticks * round_pictures) == 0) {
+  if (tick_ % round_ticks == 0) {
     order(can::Mode::disarm, 0, now_ns);
     travelled_um_ = 0;
     wheels_ = {};
   }
-  if (tick_ % picture_ticks == 0) {
+  if (tick_ == 0 || picture_at(tick_) != picture_at(tick_ - 1)) {
     send_picture(now_ns);
   }
   if (tick_ % operator_ticks == operator_ticks - 1) {
@@ -53,15 +59,15 @@ void BenchPeer::take(const can::Frame& frame, std::int64_t now_ns) {
 }
 
 void BenchPeer::send_picture(std::int64_t now_ns) {
-  const auto number = static_cast<std::int32_t>(tick_ / picture_ticks);
-  bus_->send_to_controller(can::send(can::VisionPose{.frame = number % core::picture_numbers,
-                                                     .x_quarter_mm = travelled_um_ / can::um_per_quarter_mm},
-                                     pose_counter_),
-                           now_ns);
-  bus_->send_to_controller(can::send(can::VisionBall{.frame = number % core::picture_numbers,
-                                                     .x_quarter_mm = 8000 - 150 * (number % round_pictures)},
-                                     ball_counter_),
-                           now_ns);
+  const auto number = static_cast<std::int32_t>(picture_at(tick_) % core::picture_numbers);
+  const auto in_round_ticks = static_cast<std::int32_t>(tick_ % round_ticks);
+  bus_->send_to_controller(
+      can::send(can::VisionPose{.frame = number, .x_quarter_mm = travelled_um_ / can::um_per_quarter_mm},
+                pose_counter_),
+      now_ns);
+  bus_->send_to_controller(
+      can::send(can::VisionBall{.frame = number, .x_quarter_mm = 8000 - 3 * in_round_ticks}, ball_counter_),
+      now_ns);
 }
 
 void BenchPeer::operate(std::int64_t now_ns) {

@@ -9,6 +9,7 @@
 //   torque_limit_mNm = 600          of each wheel; 10 to 2,000
 //   top_rim_speed_mm_s = 1_500      100 to 4,000
 //   camera_latency_ms = 35          0 to 50; left out: 0
+//   camera_rate_Hz = 60             pictures a second; 10 to 100; left out: 20, one for every decision
 //   command_delay_ms = 20           0 to 50; left out: 0
 //   tyre_friction_percent = 80      10 to 1,000; left out: 300, AI Soccer's
 #pragma once

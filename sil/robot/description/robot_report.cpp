@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "firmware/can/messages/vision.hpp"
 #include "firmware/host/atomic_file.hpp"
 #include "firmware/host/version.hpp"
 #include "sil/world/physics_constants.hpp"
@@ -73,6 +74,15 @@ RobotFigures figures_of(const core::RobotDescription& robot) {
     return w_rad_s < figures.crossover_rad_s ? 1.0 : loop.margin_rad(w_rad_s);
   }));
 
+  std::int32_t pictures = 1;
+  while (!core::span_a_decision(profile, pictures)) {
+    ++pictures;
+  }
+  figures.camera_rate_Hz = robot.camera_rate_Hz;
+  figures.camera_latency_ms = robot.camera_latency_ms;
+  figures.motion_ms = pictures * 1e3 / robot.camera_rate_Hz;
+  figures.velocity_step_mm_s = can::um_per_quarter_mm / figures.motion_ms;
+
   figures.slip_m_s2 = profile.slip_gain_q12 / 4096.0 * profile.torque_limit_mNm;
   figures.overspeed_m_s = profile.overspeed_mm_s / 1e3;
   return figures;
@@ -94,6 +104,11 @@ std::string robot_report(const RobotFigures& figures) {
                                   figures.kp_mNm_s_mm, figures.ki_mNm_mm, figures.crossover_rad_s));
   line("margins", fmt::format("{:.0f} degrees, and {:.1f} times the gain, with {:.1f} ms of delay",
                               figures.phase_margin_deg, figures.gain_margin, figures.delay_ms));
+  line("camera",
+       fmt::format("{:.0f} pictures a second, {:.0f} ms late; motion from two that are {:.1f} ms apart, in "
+                   "steps of {:.1f} mm/s",
+                   figures.camera_rate_Hz, figures.camera_latency_ms, figures.motion_ms,
+                   figures.velocity_step_mm_s));
   line("slip", fmt::format("a wheel that gains more than {:.1f} m/s^2 has let go", figures.slip_m_s2));
   line("overspeed", fmt::format("not driven further from {:.2f} m/s on", figures.overspeed_m_s));
   if (figures.grip_m_s2 < figures.acceleration_m_s2) {
@@ -118,6 +133,10 @@ void write_robot_json(const RobotFigures& figures, const std::string& source, bo
                                  {"crossover_rad_s", figures.crossover_rad_s},
                                  {"phase_margin_deg", figures.phase_margin_deg},
                                  {"gain_margin", figures.gain_margin},
+                                 {"camera_rate_Hz", figures.camera_rate_Hz},
+                                 {"camera_latency_ms", figures.camera_latency_ms},
+                                 {"motion_ms", figures.motion_ms},
+                                 {"velocity_step_mm_s", figures.velocity_step_mm_s},
                                  {"slip_m_s2", figures.slip_m_s2},
                                  {"overspeed_m_s", figures.overspeed_m_s},
                                  {"policy_fits", policy_fits}};

@@ -31,6 +31,11 @@ struct RobotFigures {
   double phase_margin_deg = 0.0;
   double gain_margin = 0.0;  // a robot this many times as light or strong is at the edge of stability
 
+  double camera_rate_Hz = 0.0;
+  double camera_latency_ms = 0.0;
+  double motion_ms = 0.0;           // between the two pictures that tell a velocity
+  double velocity_step_mm_s = 0.0;  // that a count of the ball's position makes, on the bus 0.25 mm
+
   double slip_m_s2 = 0.0;  // a wheel that gains more than this is slipping
   double overspeed_m_s = 0.0;
 };
