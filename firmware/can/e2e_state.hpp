@@ -58,7 +58,7 @@ template <E2eWindow limits>
 class E2eMachine {
  public:
   // A frame whose CRC is correct; `differs`, from the last one in any bit. True if its data may be taken.
-  bool take_correct(std::uint8_t counter, bool differs) {
+  [[gnu::noinline]] bool take_correct(std::uint8_t counter, bool differs) {
     if (state_ == E2eState::no_data) {
       state_ = E2eState::init;
       last_ = counter;

@@ -18,7 +18,7 @@ template <std::uint32_t least_streak, std::uint32_t most_missed>
 class Sequence {
  public:
   // The frame's counter, or nothing if its protection was not correct.
-  void take(std::optional<std::uint8_t> counter, std::uint32_t received_tick) {
+  [[gnu::noinline]] void take(std::optional<std::uint8_t> counter, std::uint32_t received_tick) {
     const std::uint32_t step = counter ? (*counter - last_) & (can::counter_modulus - 1U) : 0;
     last_ = counter.value_or(last_);
     const bool rose = step >= 1 && step <= greatest_step;

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller's image: the built-in node, on a board's 1 ms timer and CAN controller.
+#include <array>
+#include <cstddef>
+#include <new>
+
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/tick_loop.hpp"
 #include "firmware/ports/bare_metal/board_bus.hpp"
@@ -14,12 +18,18 @@ namespace {
 using namespace striker;
 using namespace striker::bare_metal;
 
-// Statics, made by the compiler: the linker script knows what they take, and the stack is what it is without.
+// Statics: the linker script knows what they take, and the stack is what it is without. The loop is made at the start of
+// `main`: nearly all of it begins as 0, and its image would take as much flash as the memory that it fills.
 constinit BoardClock board_clock;
 constinit BoardBus bus(board_clock);
 constinit BoardTicks board_ticks(board_clock, {.frames_per_tick = most_frames_a_tick, .overrun_limit = 50});
-constinit loop::TickLoop<loop::BuiltInNode, BoardBus&, BoardTicks&> tick_loop(loop::built_in_robot, bus,
-                                                                              board_ticks);
+using Loop = loop::TickLoop<loop::BuiltInNode, BoardBus&, BoardTicks&>;
+alignas(Loop) constinit std::array<std::byte, sizeof(Loop)> loop_memory{};
+
+// Apart from `main`, whose stack lasts.
+[[gnu::noinline]] Loop& make_loop() {
+  return *new (loop_memory.data()) Loop(loop::built_in_robot, bus, board_ticks);
+}
 
 // What the bus is told of the run before.
 core::Fault fault_of(const FaultRecord& record) {
@@ -29,6 +39,7 @@ core::Fault fault_of(const FaultRecord& record) {
 }  // namespace
 
 int main() {
+  Loop& tick_loop = make_loop();
   if (const auto last = take_last_fault()) {
     board_ticks.tell(fault_of(*last));
   }
