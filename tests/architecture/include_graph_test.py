@@ -36,7 +36,7 @@ ARROWS = {
     "sil/task": ["sil/world", "firmware/core", "firmware/host", "firmware/policy"],
     "sil/bus": ["firmware/can", "firmware/core", "firmware/host", "firmware/loop"],
     "sil/robot": ["sil/bus", "sil/world", "firmware/can", "firmware/core", "firmware/host", "firmware/loop"],
-    "sil/robot/description": ["sil/world", "firmware/core", "firmware/host"],
+    "sil/robot/description": ["sil/world", "firmware/core", "firmware/can", "firmware/host"],
     "sil/fault": ["sil/record", "sil/bus", "sil/robot", "sil/world", "firmware/can", "firmware/core", "firmware/host",
                   "firmware/policy"],
     "sil/record": ["sil/robot", "sil/bus", "sil/task", "sil/world", "firmware/can", "firmware/core", "firmware/host",

@@ -70,7 +70,8 @@ TEST(LearnerReader, TheCommittedOnesAreRead) {
   const std::filesystem::path configs = STRIKER_CONFIGS;
   const Config kick = load_config(configs / "kick.toml");
   EXPECT_EQ(kick.learner.kind, LearnerKind::rollout);
-  EXPECT_EQ(kick.environments.front().actions, load_config(configs / "kick_dqn.toml").environments.front().actions);
+  EXPECT_EQ(kick.environments.front().actions,
+            load_config(configs / "kick_dqn.toml").environments.front().actions);
   EXPECT_EQ(load_config(configs / "kick_dqn.toml").learner.kind, LearnerKind::dqn);
   const Config paper = load_config(configs / "paper_rollout.toml");
   EXPECT_EQ(paper.environments.front().inputs, rcs_inputs());
