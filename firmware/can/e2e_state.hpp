@@ -20,7 +20,8 @@
 // sender's own frames one of them is taken only just before the sender's next, which contradicts it: its data stands for
 // one of the sender's periods, and then not again for `steps_alone` of them. A recording of a whole run of the counter looks like the sender itself: that is authentication's business.
 //
-// At power-on the window begins with as many ones as leave `least_first` correct steps to go.
+// At power-on the window begins with as many ones as leave `least_first` correct steps to go: nothing is armed then. Drives
+// do not know that, and take all the steps.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +43,7 @@ struct E2eWindow {
 // 1 to 10 ms messages: a quarter may be lost, 12 ms of a 1 ms message bring it back. What comes after a gap can wait for the
 // next.
 inline constexpr E2eWindow fast_window = {
-    .counts = 16, .least_correct = 12, .least_first = 12, .greatest_step = 1, .steps_alone = 12};
+    .counts = 16, .least_correct = 12, .least_first = 3, .greatest_step = 1, .steps_alone = 12};
 // Of commands, as drives see them: what an old one does beside a controller that says 0 is to be nothing, on the average.
 inline constexpr E2eWindow command_window = {
     .counts = 16, .least_correct = 12, .least_first = 12, .greatest_step = 1, .steps_alone = 100};

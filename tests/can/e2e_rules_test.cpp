@@ -124,7 +124,7 @@ TEST(E2eRules, WithoutAFrameThereIsNoState) {
   EXPECT_EQ(machine.state(), E2eState::no_data);
 }
 
-TEST(E2eRules, TwelveStepsAfterPowerOnAndAfterATimeOut) {
+TEST(E2eRules, ThreeStepsAfterPowerOnAndTwelveAfterATimeOut) {
   E2eMachine<fast_window> machine;
   std::uint8_t counter = 0;
   const auto steps_until_taken = [&] {
@@ -134,7 +134,7 @@ TEST(E2eRules, TwelveStepsAfterPowerOnAndAfterATimeOut) {
     }
     return steps;
   };
-  EXPECT_EQ(steps_until_taken(), 12);
+  EXPECT_EQ(steps_until_taken(), 3);
   machine.forget();
   EXPECT_EQ(machine.state(), E2eState::init);
   EXPECT_EQ(steps_until_taken(), 11);
@@ -144,7 +144,8 @@ TEST(E2eRules, FastMessagesHaveTheLongWindow) {
   EXPECT_EQ(window_for(10).counts, 16);
   EXPECT_EQ(window_for(11).counts, 8);
   EXPECT_EQ(fast_window.least_correct, 12);
-  EXPECT_EQ(fast_window.least_first, 12);
+  EXPECT_EQ(fast_window.least_first, 3);
+  EXPECT_EQ(command_window.least_first, 12);
   EXPECT_EQ(fast_window.greatest_step, 1);
   EXPECT_EQ(slow_window.greatest_step, 3);
   EXPECT_EQ(fast_window.steps_alone, 12);
