@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sil/task/mean_estimate.hpp"
 #include "training/line/planner.hpp"
 #include "training/rollout/greedy_plays.hpp"
 
@@ -32,14 +33,6 @@ std::vector<double> greedy_rewards_of(const std::vector<LineEpisode>& episodes, 
     rewards.push_back(play.robot.reward);
   }
   return rewards;
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) {
-    sum += value;
-  }
-  return sum / static_cast<double>(values.size());
 }
 
 }  // namespace
@@ -76,8 +69,8 @@ RobotScore score_on(const Conditions& conditions, const LineKick& kick, const Pa
     planned.push_back(planned_reward(kick, episode));
   }
   return {.conditions = conditions,
-          .network = mean_of(greedy_rewards_of(episodes, kick, network)),
-          .planner = mean_of(planned),
+          .network = sil::mean_estimate(greedy_rewards_of(episodes, kick, network)).mean,
+          .planner = sil::mean_estimate(planned).mean,
           .no_contact = kick.no_contact_reward()};
 }
 
