@@ -154,7 +154,8 @@ class CommandGate {
     if (command.mode == static_cast<std::int32_t>(can::Mode::arm)) {
       armed_ = !shut_;
       armed_tick_ = tick;
-    } else if (!stopped_ || tick - stop_tick_ > stop_hold_ticks) {
+    } else if (command.mode == static_cast<std::int32_t>(can::Mode::clear) &&
+               (!stopped_ || tick - stop_tick_ > stop_hold_ticks)) {
       armed_ = armed_ && !shut_;
       shut_ = stopped_ = blocked_since_clear_ = false;
     }

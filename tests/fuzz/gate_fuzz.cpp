@@ -108,6 +108,7 @@ class GateRig {
 
   void restart() {
     gate_.restart();
+    tick_ = stop_tick_ = 0;
     armed_ = false;
     open_.reset();
     wheels_seen_ = pose_seen_ = ball_seen_ = {};
@@ -119,6 +120,7 @@ class GateRig {
       frame.age_ms = age_ms_;
       see_received(frame);
     }
+    end_orders();
     gate_.take(in_, tick_);
     const std::uint32_t blocked = gate_.blocked();
     const std::vector<can::Frame> wanted(out_.frames().begin(), out_.frames().end());
@@ -150,6 +152,7 @@ class GateRig {
       ball_seen_.see(frame, tick_);
     } else if (is_correct<can::EmergencyStop>(frame)) {
       stopped_ = true;
+      stop_tick_ = tick_;
     } else if (holds(frame, command)) {
       see_order(command);
     }
@@ -158,21 +161,30 @@ class GateRig {
   void see_order(const can::ModeCommand& command) {
     const auto mode = static_cast<can::Mode>(command.mode);
     if (mode == can::Mode::disarm) {
-      armed_ = false;
+      disarmed_ = true;
     } else if (mode == can::Mode::renew) {
       armed_tick_ = tick_;
     } else if (command.challenge != 0) {
-      const bool confirmed = open_ && open_->mode == command.mode && open_->challenge == command.challenge &&
-                             tick_ - open_tick_ <= safety::challenge_limit_ticks;
-      open_.reset();
-      if (confirmed) {
-        armed_ = mode == can::Mode::arm && !stopped_ && !blocked_;
-        armed_tick_ = tick_;
-        if (mode == can::Mode::clear) {
-          stopped_ = blocked_ = false;
-        }
-      }
+      guessed_ = true;
+      confirmed_ = open_ && open_->mode == command.mode && open_->challenge == command.challenge &&
+                   tick_ - open_tick_ <= safety::challenge_limit_ticks;
     }
+  }
+
+  // What a tick's orders come to: the last confirmation counts, and a disarm beats it. A challenge is good in one tick.
+  void end_orders() {
+    if (confirmed_ && open_->mode == static_cast<std::int32_t>(can::Mode::arm)) {
+      armed_ = !stopped_ && !blocked_;
+      armed_tick_ = tick_;
+    } else if (confirmed_ && open_->mode == static_cast<std::int32_t>(can::Mode::clear) &&
+               (!stopped_ || tick_ - stop_tick_ > safety::stop_hold_ticks)) {
+      stopped_ = blocked_ = false;
+    }
+    armed_ = armed_ && !disarmed_ && !stopped_ && !blocked_;
+    if (guessed_) {
+      open_.reset();
+    }
+    guessed_ = confirmed_ = disarmed_ = false;
   }
 
   void see_sent(const can::Frame& frame) {
@@ -229,6 +241,10 @@ class GateRig {
   std::optional<can::Challenge> open_;
   std::uint32_t open_tick_ = 0;
   std::uint32_t armed_tick_ = 0;
+  std::uint32_t stop_tick_ = 0;
+  bool guessed_ = false;    // in this tick: a confirmation came, right or wrong
+  bool confirmed_ = false;  // the last one was right
+  bool disarmed_ = false;
   bool armed_ = false;
   bool stopped_ = false;
   bool blocked_ = false;

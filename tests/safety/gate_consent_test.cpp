@@ -49,6 +49,18 @@ TEST_F(GateConsent, AClearWithNothingToClearLeavesTheCause) {
   EXPECT_TRUE(moves());
 }
 
+// The controller, which the gate does not believe, asks to confirm what is neither an arming nor a clear.
+TEST_F(GateConsent, OnlyAConfirmedClearClears) {
+  can::SendCounter counter;
+  for (const std::int32_t mode : {disarm, renew, arm}) {
+    receive(can::send(can::EmergencyStop{}, counter));
+    feed(151);
+    confirm(mode);
+    confirm(arm);
+    EXPECT_FALSE(moves()) << mode;
+  }
+}
+
 TEST_F(GateConsent, AClearSoSoonAfterAStopClearsNothing) {
   can::SendCounter counter;
   for (const std::uint32_t wait : {0U, 1U, 150U, 151U}) {
