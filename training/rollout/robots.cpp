@@ -2,6 +2,7 @@
 #include "training/rollout/robots.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include "sil/task/mean_estimate.hpp"
@@ -15,6 +16,7 @@ namespace {
 std::vector<LineEpisode> drawn(const Conditions& conditions, const LineKick& kick,
                                const PlayedEpisodes& played) {
   std::vector<LineEpisode> episodes;
+  episodes.reserve(static_cast<std::size_t>(played.episodes));
   for (int i = 0; i < played.episodes; ++i) {
     episodes.push_back(kick.draw(played.seed, played.first + static_cast<std::uint64_t>(i), conditions));
   }
@@ -24,11 +26,13 @@ std::vector<LineEpisode> drawn(const Conditions& conditions, const LineKick& kic
 std::vector<double> greedy_rewards_of(const std::vector<LineEpisode>& episodes, const LineKick& kick,
                                       const Parameters& network) {
   std::vector<LinePlay> plays;
+  plays.reserve(episodes.size());
   for (const LineEpisode& episode : episodes) {
     plays.push_back({.kick = &kick, .episode = &episode, .robot = {}});
   }
   GreedyPlays(network.shape()).finish(network, plays);
   std::vector<double> rewards;
+  rewards.reserve(plays.size());
   for (const LinePlay& play : plays) {
     rewards.push_back(play.robot.reward);
   }
@@ -65,6 +69,7 @@ RobotScore score_on(const Conditions& conditions, const LineKick& kick, const Pa
                     const PlayedEpisodes& played) {
   const std::vector<LineEpisode> episodes = drawn(conditions, kick, played);
   std::vector<double> planned;
+  planned.reserve(episodes.size());
   for (const LineEpisode& episode : episodes) {
     planned.push_back(planned_reward(kick, episode));
   }
