@@ -206,7 +206,7 @@ class Controller {
     }
     if (percepts.wheels) {
       now_.measured = *percepts.wheels;
-      now_.odometry.take(now_.measured);
+      now_.odometry.take(active ? now_.loops.see(now_.robot, now_.measured) : now_.measured);
       if (active && !now_.plausibility.possible(now_.robot, now_.tick, now_.measured, now_.loops.acting())) {
         now_.vigilance.see_impossible_wheels();
       }
@@ -249,7 +249,7 @@ class Controller {
         return;  // the memory was corrupt
       }
       now_.clock.restart();
-      now_.loops.reset();
+      now_.loops.reset(now_.measured);
       pending_.state = {};
       now_.plausibility.restart();
       now_.set_point = {};

@@ -67,7 +67,7 @@ struct RobotProfile {
   std::int32_t overspeed_mm_s = 0;      // a wheel this fast must not be driven further
   std::int32_t kp_q8 = 0;               // of the wheel loops: mNm for a mm/s
   std::int32_t ki_tick_q16 = 0;         // mNm for a mm/s and a tick
-  std::int32_t slip_gain_q12 = 0;  // the most that a mNm on both wheels adds in a tick, in mm/s: gripping
+  std::int32_t slip_gain_q12 = 0;       // what a mNm on both wheels adds in a tick, in mm/s: gripping
   std::int32_t camera_latency_ticks = 0;
   std::int32_t picture_period_us = decision_period_us;
   std::int32_t command_delay_ticks = 0;
@@ -88,9 +88,6 @@ constexpr std::int64_t crossover_rad_s(std::int64_t command_delay_ms) {
 }
 
 inline constexpr std::int64_t overspeed_percent = 115;
-
-// A robot a third lighter than described, or as much stronger, still grips.
-inline constexpr std::int64_t grip_percent = 150;
 
 // numerator / denominator to the nearest.
 constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denominator) {
@@ -118,7 +115,7 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
       .overspeed_mm_s = rounded_ratio(overspeed_percent * robot.top_rim_speed_mm_s, 100),
       .kp_q8 = rounded_ratio(256 * kp_e9, e9),
       .ki_tick_q16 = rounded_ratio(65'536 * (crossover * kp_e9 / 10), ticks_a_second * e9),
-      .slip_gain_q12 = rounded_ratio(4'096 * grip_percent * 2'000'000 / 100, radius_mass),
+      .slip_gain_q12 = rounded_ratio(8'192'000'000, radius_mass),
       .camera_latency_ticks = robot.camera_latency_ms,
       .picture_period_us = rounded_ratio(1'000'000, robot.camera_rate_Hz),
       .command_delay_ticks = robot.command_delay_ms,
@@ -154,7 +151,8 @@ inline constexpr std::int32_t greatest_measured_mm_s = 8'000;
       robot.picture_period_us > greatest_picture_period_us || robot.command_delay_ticks < 0 ||
       robot.command_delay_ticks > greatest_delay_ticks || robot.pending_gain_q12 <= 0 ||
       std::int64_t{greatest_delay_ticks} * torque_steps * robot.pending_gain_q12 > greatest ||
-      robot.slip_gain_q12 <= 0 || std::int64_t{robot.slip_gain_q12} * robot.torque_limit_mNm > greatest) {
+      robot.slip_gain_q12 <= 0 ||
+      std::int64_t{robot.slip_gain_q12} * robot.torque_limit_mNm > greatest / 16) {
     return false;
   }
   const std::int32_t error_mm_s = greatest_measured_mm_s + robot.top_rim_speed_mm_s;
@@ -175,7 +173,7 @@ static_assert(profile_of(forward) == RobotProfile{.torque_limit_mNm = 400,
                                                   .overspeed_mm_s = 2933,
                                                   .kp_q8 = 922,          // 3.6 mNm/(mm/s)
                                                   .ki_tick_q16 = 2359,   // 36 mNm/(mm/s)/s at 1 kHz
-                                                  .slip_gain_q12 = 171,  // 0.0417 mm/s
+                                                  .slip_gain_q12 = 114,  // 0.0278 mm/s
                                                   .camera_latency_ticks = 0,
                                                   .picture_period_us = 50'000,
                                                   .command_delay_ticks = 0,

@@ -6,8 +6,7 @@
 namespace striker::core {
 
 std::int32_t WheelLoop::step(const RobotProfile& robot, std::int32_t set_point_mm_s,
-                             std::int32_t measured_mm_s, PendingTorque& pending) {
-  const std::int32_t limit_mNm = slip_.limit(robot, measured_mm_s);
+                             std::int32_t measured_mm_s, std::int32_t limit_mNm, PendingTorque& pending) {
   const std::int32_t coming_mm_s = std::clamp(measured_mm_s + pending.speed_change_mm_s(robot),
                                               -greatest_measured_mm_s, greatest_measured_mm_s);
   const std::int32_t error_mm_s = set_point_mm_s - coming_mm_s;

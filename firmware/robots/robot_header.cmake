@@ -1,10 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 # striker_write_robot(FILE HEADER): a robot's description as a header for firmware/loop/built_in_robot.hpp. The file is
-# TOML, a key and a whole number a line (sil/robot/description/robot_file.hpp); ranges and unknown keys are left to the compiler.
+# TOML, a key and a whole number a line (sil/robot/description/robot_file.hpp, which refuses what this does); ranges and
+# unknown keys are left to the compiler.
 function(striker_write_robot file header)
   file(READ "${file}" text)
+  string(ASCII 239 187 191 byte_order_mark)
+  string(REGEX REPLACE "^${byte_order_mark}" "" text "${text}")
+  string(REPLACE "\r\n" "\n" text "${text}")
+  string(ASCII 1 2 3 4 5 6 7 8 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 127 control)
+  if(text MATCHES "[${control}]")
+    message(FATAL_ERROR "STRIKER_ROBOT: ${file}: a control character stands in it, which TOML has not")
+  endif()
   string(REGEX REPLACE "#[^\n]*" "" text "${text}")
-  string(REPLACE "\r" "" text "${text}")
   string(REPLACE ";" "<semicolon>" text "${text}")
   string(REGEX REPLACE "\n" ";" lines "${text}")
   get_filename_component(name "${file}" NAME)

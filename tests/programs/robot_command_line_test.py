@@ -47,6 +47,36 @@ class Robot(files_case.FilesCase):
             for word in words:
                 self.assertIn(word, result.stderr)
 
+    # Bytes, since some are no text. {} is the number of body_mass_g, and the rest of its line.
+    ODD = (b"1_500", b"1500 # kg\r", b"1500\t", b"1500 # \xc2\xb5", b"0", b"+1500", b"+0", b"-0", b"0x5DC", b"0o2734", b"0b1", b"007",
+           b"1_", b"_1", b"1__5", b"1500\r\r", b"15\r00", b"1500 # a\x01b", b"1500 # \x7f", b"1500\x0c", b"1500\x0b", b"1500;",
+           b"1500\nbody_mass_g = 1500", b"1500\n'x' = 1", b"'1500'", b"1500.0", b"1.5e3", b"[1500]", b"true", b"inf", b"")
+
+    def builds(self, path):
+        script = self.file("write.cmake", "cmake_minimum_required(VERSION 3.25)\n"
+                           f"include({files_case.ROBOTS}/robot_header.cmake)\n"
+                           f"striker_write_robot({path} {self.file('robot.hpp')})\n")
+        return subprocess.run(["cmake", "-P", script], capture_output=True, check=False).returncode == 0
+
+    def test_it_refuses_what_the_firmwares_build_refuses_and_what_is_no_toml_both_refuse(self):
+        with open(os.path.join(files_case.ROBOTS, "forward.toml"), "rb") as stream:
+            forward = stream.read()
+        line = b"body_mass_g = 1500"
+        self.assertIn(line, forward)
+        files = [forward.replace(line, b"body_mass_g = " + odd) for odd in self.ODD]
+        files += [b"\xef\xbb\xbf" + forward, forward.replace(line, b'"body_mass_g" = 1500'), forward.replace(line, b"[robot]\n" + line),
+                  forward.replace(line, b"body_mass_g\r = 1500"), forward.replace(b"\n", b"\r\n"), forward.rstrip(b"\n")]
+        taken = 0
+        for content in files:
+            path = self.file("odd.toml")
+            with open(path, "wb") as stream:
+                stream.write(content)
+            checked = robot("check", path).returncode != 2
+            if b"= 0\n" not in content:  # the compiler refuses what is out of range
+                self.assertEqual(checked, self.builds(path), content)
+            taken += checked
+        self.assertEqual(taken, 7)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -23,6 +23,50 @@ TEST_F(GateConsent, AfterItsTimeARenewalComesTooLate) {
   EXPECT_FALSE(moves()) << "consent ended; only another confirmation brings it back";
 }
 
+TEST_F(GateConsent, TheLastTickOfItsTimeCounts) {
+  drive();
+  feed(10'100);
+  gate.take({}, tick);
+  EXPECT_TRUE(moves());
+}
+
+TEST_F(GateConsent, AnyNumberButNoneMayBeTheChallenge) {
+  for (const std::int32_t number : {1, 2, 255}) {
+    feed(13);
+    challenge(arm, number);
+    order(arm, number);
+    EXPECT_TRUE(moves()) << number;
+    order(disarm, 0);
+  }
+}
+
+TEST_F(GateConsent, AClearArmsNothing) {
+  feed(13);
+  confirm(clear);
+  EXPECT_FALSE(moves()) << "with nothing to clear, and not armed";
+  confirm(clear);
+  drive();
+  can::SendCounter counter;
+  receive(can::send(can::EmergencyStop{}, counter));
+  feed(151);
+  confirm(clear);
+  EXPECT_FALSE(moves()) << "what was armed before a stop is so no longer";
+}
+
+TEST_F(GateConsent, AStopOutlastsARestartAndHoldsAsLongAfterIt) {
+  can::SendCounter counter;
+  for (const std::uint32_t wait : {0U, 150U, 151U}) {
+    receive(can::send(can::EmergencyStop{}, counter));
+    gate.restart();
+    tick = 0;
+    feed(wait);
+    confirm(clear);
+    feed(13);
+    confirm(arm);
+    EXPECT_EQ(moves(), wait == 151) << wait;
+  }
+}
+
 // Of an operator who is dead: the same bytes again and again, or two old frames in turn.
 TEST_F(GateConsent, RenewalsThatAreRepeatedRenewNothing) {
   for (const std::size_t frames : {1U, 2U}) {

@@ -43,6 +43,8 @@ class GateRules : public testing::Test {
       feed();
     }
   }
+  // One that the drives sent, and that nobody received.
+  void lose_wheels() { static_cast<void>(can::send(can::WheelState{}, wheels_)); }
   void receive(const can::Frame& frame) { gate.take({&frame, 1}, tick); }
 
   can::FrameList send(const can::Frame& frame) {

@@ -140,6 +140,17 @@ TEST_F(GateRules, InputsAreAsOldAsTheyAre) {
   EXPECT_FALSE(moves());
 }
 
+TEST_F(GateRules, AQuarterOfTheWheelStatesMayBeLost) {
+  drive();
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    if (i % 3 == 0) {
+      lose_wheels();
+    }
+    feed();
+    EXPECT_TRUE(moves()) << i;
+  }
+}
+
 TEST_F(GateRules, BeingArmedEndsAndIsRenewed) {
   drive();
   for (int renewal = 0; renewal < 4; ++renewal) {

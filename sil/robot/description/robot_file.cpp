@@ -58,6 +58,29 @@ std::int32_t value_of(const RobotKey& key, const toml::table& table, const std::
   return static_cast<std::int32_t>(*value);
 }
 
+std::string_view line_of(std::string_view text, std::uint32_t number) {
+  for (std::uint32_t line = 1; line < number; ++line) {
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  }
+  return text.substr(0, text.find('\n'));
+}
+
+// TOML has more ways to write a whole number, of which the firmware's build, without a TOML library, knows the plainest.
+void refuse_fancy(const toml::table& table, std::string_view text, const std::string& file) {
+  for (const auto& [key, node] : table) {
+    const toml::source_position begin = node.source().begin;
+    const std::string_view line = line_of(text, begin.line);
+    const std::string_view number = line.substr(std::min<std::size_t>(begin.column - 1, line.size()));
+    const bool quoted = line.substr(0, begin.column - 1).find_first_of("\"'") != std::string_view::npos;
+    const bool plain = !number.empty() && number[0] >= '0' && number[0] <= '9' &&
+                       (number.size() < 2 || number[0] != '0' || number.find_first_of("xob") != 1);
+    if (quoted || !plain) {
+      fail(file, fmt::format("line {}: '{}' is no key with a whole number, as in body_mass_g = 1_500",
+                             begin.line, line));
+    }
+  }
+}
+
 }  // namespace
 
 RobotDescription read_robot(const std::filesystem::path& file) {
@@ -70,6 +93,7 @@ RobotDescription read_robot(const std::filesystem::path& file) {
     for (const RobotKey& key : core::robot_keys) {
       robot.*key.member = value_of(key, table, name);
     }
+    refuse_fancy(table, text, name);
   } catch (const toml::parse_error& error) {
     fail(name, fmt::format("line {}: {}", error.source().begin.line, std::string(error.description())));
   }
