@@ -14,8 +14,7 @@ constexpr std::int32_t all_q10 = 1024;
 constexpr std::int32_t greatest_withheld_q10 = all_q10 - 96;
 constexpr std::int32_t late_cut_q10 = 192;
 
-constexpr std::int32_t spare_q8 = 256 + 26;
-constexpr std::int32_t late_spare_q8 = 256 + 128;
+constexpr std::int32_t late_gain_q8 = 256 + 128;
 constexpr std::int32_t raise_q8 = 32;
 constexpr std::int32_t lower_q8 = 4;
 constexpr std::int32_t greatest_learned_q8 = 256;
@@ -47,7 +46,7 @@ void SlipLimiter::see(const RobotProfile& robot, std::int32_t measured_mm_s) {
 
 void SlipLimiter::grip(const RobotProfile& robot, std::int32_t measured_mm_s) {
   const std::int32_t magnitude_mNm = torque_mNm_ < 0 ? -torque_mNm_ : torque_mNm_;
-  const std::int32_t gain_q8 = learned_q8_ + (is_late(robot) ? late_spare_q8 : spare_q8);
+  const std::int32_t gain_q8 = learned_q8_ + (is_late(robot) ? late_gain_q8 : followed_gain_q8);
   const std::int32_t followed_q6 =
       coasting_q6 + ((((magnitude_mNm * robot.slip_gain_q12) >> 6) * gain_q8) >> 8);
   rolling_q6_ += std::clamp(measured_mm_s * 64 - rolling_q6_, -followed_q6, followed_q6);

@@ -27,6 +27,9 @@
 
 namespace striker::core {
 
+// Of the profile's gain, what a rim may gain at first.
+inline constexpr std::int32_t followed_gain_q8 = 256 + 26;
+
 class SlipLimiter {
  public:
   SlipLimiter() = default;

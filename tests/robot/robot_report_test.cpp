@@ -25,7 +25,7 @@ TEST(RobotReport, AForwardsFiguresAreThoseWorkedOutByHand) {
   EXPECT_NEAR(forward.phase_margin_deg, 67.0, 0.5);  // 90 - atan(0.1) - 100 x 0.003 rad
   EXPECT_DOUBLE_EQ(forward.motion_ms, 50.0);
   EXPECT_DOUBLE_EQ(forward.velocity_step_mm_s, 5.0);  // 0.25 mm in 50 ms
-  EXPECT_NEAR(forward.slip_m_s2, 16.7, 0.1);          // half as much again as the acceleration
+  EXPECT_NEAR(forward.slip_m_s2, 12.2, 0.1);          // a tenth more than the acceleration
   EXPECT_NEAR(forward.overspeed_m_s, 2.93, 0.01);     // 15 % above the top
 }
 

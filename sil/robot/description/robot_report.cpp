@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "firmware/can/messages/vision.hpp"
+#include "firmware/core/slip_limiter.hpp"
 #include "firmware/host/atomic_file.hpp"
 #include "firmware/host/version.hpp"
 #include "sil/world/physics_constants.hpp"
@@ -83,7 +84,8 @@ RobotFigures figures_of(const core::RobotDescription& robot) {
   figures.motion_ms = pictures * 1e3 / robot.camera_rate_Hz;
   figures.velocity_step_mm_s = can::um_per_quarter_mm / figures.motion_ms;
 
-  figures.slip_m_s2 = profile.slip_gain_q12 / 4096.0 * profile.torque_limit_mNm;
+  figures.slip_m_s2 =
+      core::followed_gain_q8 / 256.0 * profile.slip_gain_q12 / 4096.0 * profile.torque_limit_mNm;
   figures.overspeed_m_s = profile.overspeed_mm_s / 1e3;
   return figures;
 }
@@ -109,7 +111,8 @@ std::string robot_report(const RobotFigures& figures) {
                    "steps of {:.1f} mm/s",
                    figures.camera_rate_Hz, figures.camera_latency_ms, figures.motion_ms,
                    figures.velocity_step_mm_s));
-  line("slip", fmt::format("a wheel that gains more than {:.1f} m/s^2 has let go", figures.slip_m_s2));
+  line("slip",
+       fmt::format("a wheel that gains more than {:.1f} m/s^2 is taken to have let go", figures.slip_m_s2));
   line("overspeed", fmt::format("not driven further from {:.2f} m/s on", figures.overspeed_m_s));
   if (figures.grip_m_s2 < figures.acceleration_m_s2) {
     text += "The torque is more than the tyres hold: wheels slip whenever it is all used.\n";

@@ -36,7 +36,7 @@ struct RobotFigures {
   double motion_ms = 0.0;           // between the two pictures that tell a velocity
   double velocity_step_mm_s = 0.0;  // that a count of the ball's position makes, on the bus 0.25 mm
 
-  double slip_m_s2 = 0.0;  // a wheel that gains more than this is slipping
+  double slip_m_s2 = 0.0;  // a wheel that gains more than this is taken to slip
   double overspeed_m_s = 0.0;
 };
 
