@@ -187,5 +187,15 @@ TEST(PicturePlausibility, WheelsAgreeWithARobotTenPercentOff) {
   }
 }
 
+// 150 ms at the greatest speeds that a wheel state can carry: the sanitized build sees an overflow.
+TEST(PicturePlausibility, NoWayOfTheNarrowestRobotLeaves32Bits) {
+  RobotDescription narrow = forward;
+  narrow.axle_length_um = 40'000;
+  const auto agrees = [profile = profile_of(narrow)](std::int32_t turned_um) {
+    return wheels_agree(profile, {}, {}, {.travelled_um = 0, .turned_um = turned_um});
+  };
+  EXPECT_EQ(agrees(-2'400'000), agrees(2'400'000));
+}
+
 }  // namespace
 }  // namespace striker::core

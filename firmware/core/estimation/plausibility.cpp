@@ -19,6 +19,10 @@ constexpr bool beyond(const Vector& from, const Vector& to, std::int32_t limit_u
 constexpr std::int32_t slip_um = 45'000;
 constexpr std::int32_t slip_angle = 65536 / 16;
 
+// Twice as far as any wheels turn a robot in the time between two pictures; with the narrowest axle's gain, 1,068, it stays
+// within 32 bits.
+constexpr std::int32_t greatest_turned_um = 2'000'000;
+
 // A rim gains 0.2 m/s in a tick if its wheel is free in the air. One that lands, having spun up or been braked there,
 // changes by more at once; but it does not land again and again: each jump counts for 16 ticks, and two are forgiven.
 constexpr std::int32_t greatest_change_mm_s = 1'000;
@@ -57,7 +61,8 @@ bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& 
 // On an arc the way goes along the mean heading, and a curved one is shorter than what the wheels rolled.
 bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to, const Way& rolled) {
   const BinaryAngle turned = wrap_angle(to.heading - from.heading);
-  const BinaryAngle rolled_turn = wrap_angle(rolled.turned_um * robot.turn_q12 / 4096);
+  const BinaryAngle rolled_turn = wrap_angle(
+      std::clamp(rolled.turned_um, -greatest_turned_um, greatest_turned_um) * robot.turn_q12 / 4096);
   if (magnitude(wrap_angle(turned - rolled_turn)) > slip_angle + magnitude(rolled_turn) / 4) {
     return false;
   }
