@@ -47,11 +47,13 @@ class WheelLoops {
     right_ = WheelLoop(measured.right_mm_s);
   }
 
-  // The speeds of rims that grip: those measured, unless a wheel spins.
+  // The speeds of rims that grip: those measured, unless a wheel spins. Where commands are late nothing tells for sure that
+  // one does, and it is those measured.
   WheelSpeeds see(const RobotProfile& robot, const WheelSpeeds& measured) {
     left_.see(robot, measured.left_mm_s);
     right_.see(robot, measured.right_mm_s);
-    return {left_.rolling_mm_s(), right_.rolling_mm_s()};
+    return robot.command_delay_ticks != 0 ? measured
+                                          : WheelSpeeds{left_.rolling_mm_s(), right_.rolling_mm_s()};
   }
 
   // Neither wheel gets more than the one that grips less, or the robot would turn.

@@ -166,5 +166,20 @@ TEST(WheelLoop, DoesNotWindUp) {
   EXPECT_LE(step(loop, robot, -500, 0, pending), -robot.torque_limit_mNm + 1);
 }
 
+// A motor that does not do what it is told, as a speed servo: its robot moves as measured, however long that lasts.
+TEST(WheelLoops, WhereCommandsAreLateTheRobotMovesAsMeasured) {
+  RobotProfile late = robot;
+  for (const std::int32_t delay_ticks : {1, 20, 50}) {
+    late.command_delay_ticks = delay_ticks;
+    WheelLoops loops;
+    PendingTorques pending;
+    for (std::int32_t tick = 0; tick < 300; ++tick) {
+      const WheelSpeeds measured = {std::min(20 * tick, 2550), std::max(-20 * tick, -2550)};
+      EXPECT_EQ(loops.see(late, measured), measured);
+      (void)loops.step(late, {2550, -2550}, measured, pending);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace striker::core
