@@ -276,7 +276,7 @@ class Controller {
     }
     const Estimate seen = led_through_delay(now_.robot, memory.estimator.at(now_.tick, now_.odometry),
                                             pending_.state.speed_change_mm_s(now_.robot));
-    const Decision decision = memory.pilot.decide(relative_state(seen), due == DecisionDue::extrapolated);
+    const Decision decision = memory.pilot.decide(relative_state(seen), due);
     now_.set_point = memory.pilot.set_point();
     now_.kick_over = static_cast<std::uint32_t>(decision.over);
     return decision;

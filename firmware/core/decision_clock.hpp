@@ -3,7 +3,8 @@
 //
 // A new picture within `decision_window_ticks` of the expected time decides in its own tick and restarts the
 // count. Without one the count runs free, and decides on extrapolated positions, until the freshness limit
-// ends that elsewhere. A picture that comes just after such a decision decides again: its figures are better.
+// ends that elsewhere. A picture that comes just after such a decision makes that decision again, with better figures;
+// the count restarts with it.
 //
 // With a camera of another rate the count always runs free, from the first picture on: to follow pictures that are not
 // due with a decision would change its period, and the newest one is led on by less than the time between two.
@@ -17,7 +18,7 @@ namespace striker::core {
 
 inline constexpr std::uint32_t decision_window_ticks = 5;
 
-enum class DecisionDue : std::uint8_t { no, on_picture, extrapolated };
+enum class DecisionDue : std::uint8_t { no, on_picture, extrapolated, again };
 
 class DecisionClock {
  public:
@@ -31,13 +32,12 @@ class DecisionClock {
   [[nodiscard]] DecisionDue at(std::uint32_t tick, bool new_picture, bool on_each_picture) {
     const std::uint32_t phase = tick - decision_tick_;
     const bool early_enough = phase >= decision_period_ticks - (on_each_picture ? decision_window_ticks : 0);
-    const bool late_for_extrapolated =
-        on_each_picture && last_extrapolated_ != 0 && phase <= decision_window_ticks;
-    if (new_picture && (awaits_first_picture_ != 0 || early_enough || late_for_extrapolated)) {
+    const bool just_after = on_each_picture && last_extrapolated_ != 0 && phase <= decision_window_ticks;
+    if (new_picture && (awaits_first_picture_ != 0 || early_enough || just_after)) {
       awaits_first_picture_ = 0;
       last_extrapolated_ = 0;
       decision_tick_ = tick;
-      return DecisionDue::on_picture;
+      return just_after ? DecisionDue::again : DecisionDue::on_picture;
     }
     if (awaits_first_picture_ == 0 && phase >= decision_period_ticks) {
       last_extrapolated_ = 1;

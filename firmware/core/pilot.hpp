@@ -6,7 +6,7 @@
 // feed. One image may hold several pilots; each is a plain value, without statics, and copies go on alone.
 //
 //   Pilot<policy::kick> pilot;
-//   const Decision decision = pilot.decide(relative_state(estimator.at(tick, odometry)), false);
+//   const Decision decision = pilot.decide(relative_state(estimator.at(tick, odometry)), DecisionDue::on_picture);
 //   loops.step(robot, pilot.set_point(), measured);
 //
 // A kick has `decisions_a_kick` decisions, as many as it was trained for. After them the wheels are told to stand, until
@@ -23,6 +23,7 @@
 #include <type_traits>
 
 #include "firmware/core/actions.hpp"
+#include "firmware/core/decision_clock.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
 #include "firmware/core/robot_profile.hpp"
 #include "firmware/core/supervision/supervisor.hpp"
@@ -95,12 +96,15 @@ class Pilot {
     set_point_ = {};
   }
 
-  [[nodiscard]] Decision decide(const RelativeState& seen, bool extrapolated) {
+  // One that is made again takes the last one's place, number and history with it.
+  [[nodiscard]] Decision decide(const RelativeState& seen, DecisionDue due) {
+    const bool again = due == DecisionDue::again && decisions_ > 0;
+    decisions_ -= again ? 1U : 0U;
     RelativeState now = seen;
     const auto made =
         static_cast<std::int32_t>(std::min<std::uint32_t>(decisions_, policy::decisions_a_kick));
     now.decisions_left = policy::decisions_a_kick - made;
-    remember(now);
+    remember(now, again);
     const bool mirror = one_sided && now.ball_um.y < 0;
     read_inputs(mirror);
     const auto q = policy::infer<policy>(inputs_);
@@ -109,7 +113,7 @@ class Pilot {
     set_point_ = over ? WheelSpeeds{} : set_point_of(q.action, mirror);
     return {.number = decisions_++,
             .action = q.action,
-            .extrapolated = extrapolated,
+            .extrapolated = due == DecisionDue::extrapolated,
             .over = over,
             .best_q_256th = q.sums[q.action] >> output_shift,
             .next_q_256th = runner_up(q) >> output_shift};
@@ -145,12 +149,14 @@ class Pilot {
   }();
 
   // Before the first decision everything was as at the first.
-  void remember(const RelativeState& now) {
+  void remember(const RelativeState& now, bool again) {
     if (decisions_ == 0) {
       history_.fill(now);
       return;
     }
-    std::copy_backward(history_.begin(), history_.end() - 1, history_.end());
+    if (!again) {
+      std::copy_backward(history_.begin(), history_.end() - 1, history_.end());
+    }
     history_.front() = now;
   }
 

@@ -129,6 +129,15 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
   return pictures * robot.picture_period_us + robot.picture_period_us / 2 > decision_period_us;
 }
 
+// The pictures' times between those two.
+[[nodiscard]] constexpr std::uint32_t pictures_a_motion(const RobotProfile& robot) {
+  std::int32_t pictures = 1;
+  while (!span_a_decision(robot, pictures)) {
+    ++pictures;
+  }
+  return static_cast<std::uint32_t>(pictures);
+}
+
 // Every picture is one decision's.
 [[nodiscard]] constexpr bool decides_on_each_picture(const RobotProfile& robot) {
   return robot.picture_period_us == decision_period_us;

@@ -21,5 +21,6 @@ endif()
 set(CMAKE_CXX_FLAGS_INIT
     "-mcpu=${BOARD_CPU} -mthumb -mfloat-abi=${abi} -ffunction-sections -fdata-sections -fno-threadsafe-statics")
 
-# -O3 unrolls what is not the kernel: more flash, no faster kernel.
-set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "")
+# -O3 unrolls what is not the kernel: more flash, no faster kernel. The same holds of two parts of -O2: on the Cortex-M55
+# they take 460 bytes, and no processor's longest step is more than 0.6 % longer without them.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -fno-tree-vectorize -fno-inline-small-functions -DNDEBUG" CACHE STRING "")

@@ -133,6 +133,7 @@ class KickSession {
                              .ball_kept_after_1_s = ball_kept_after_1_s(variation_)},
                    .vision_latency_ticks = variation_.vision_latency_ms.value(),
                    .camera_rate_Hz = variation_.camera_rate_Hz.value(),
+                   .pictures_a_motion = core::pictures_a_motion(core::profile_of(robot_)),
                    .needs_controller = options.real_time},
                   seat_, observers) {}
 

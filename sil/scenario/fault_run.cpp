@@ -93,7 +93,8 @@ Play play(const std::vector<TimedFault>& faults, double torque_scale, const Faul
                          .episodes = episodes,
                          .place = {.robot = robot},
                          .vision_latency_ticks = as_described.vision_latency_ms.value(),
-                         .camera_rate_Hz = as_described.camera_rate_Hz.value()},
+                         .camera_rate_Hz = as_described.camera_rate_Hz.value(),
+                         .pictures_a_motion = core::pictures_a_motion(loop::built_in_robot)},
                         seat.seat(), observers);
   scenario.run([] { return false; });
   Play played{.result = {}, .outcomes = scenario.outcomes()};

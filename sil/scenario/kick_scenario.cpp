@@ -12,26 +12,21 @@ namespace striker::sil {
 namespace {
 
 constexpr std::uint32_t second_ticks = 1'000;
-constexpr std::uint32_t official_rate_Hz = second_ticks / core::decision_period_ticks;  // an AI Soccer frame
 constexpr std::uint32_t clear_tick = 20;
 
-std::uint32_t picture_ticks_with(std::uint32_t rate_Hz) {
-  return (second_ticks + rate_Hz - 1) / rate_Hz;
+// How long before the picture of decision 0 another one is taken, some pictures back.
+std::uint32_t ticks_back(const KickPlan& plan, std::uint32_t pictures) {
+  return pictures * second_ticks / plan.camera_rate_Hz;
 }
 
 // Four pictures, and the controller believes its camera.
-std::uint32_t boot_ticks_with(std::uint32_t rate_Hz) {
-  return std::max(kick_boot_ticks, 4 * picture_ticks_with(rate_Hz));
+std::uint32_t boot_ticks_of(const KickPlan& plan) {
+  return std::max(kick_boot_ticks, ticks_back(plan, 4));
 }
 
-// Two pictures before it.
-std::uint32_t first_decision_tick_with(std::uint32_t rate_Hz) {
-  return std::max(kick_first_decision_tick, 2 * picture_ticks_with(rate_Hz));
-}
-
-// When the official camera has told a velocity. Others have within 67 ms, or with their second picture.
-std::uint32_t arm_tick_with(std::uint32_t rate_Hz) {
-  return first_decision_tick_with(rate_Hz) - (rate_Hz == official_rate_Hz ? 49 : 29);
+// Late enough for all pictures that tell a motion, and that of decision 0.
+std::uint32_t first_decision_tick_of(const KickPlan& plan) {
+  return std::max(kick_first_decision_tick, ticks_back(plan, plan.pictures_a_motion + 1));
 }
 
 }  // namespace
@@ -41,8 +36,8 @@ KickScenario::KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer*
       seat_(&seat),
       observers_(observers),
       world_(kick_world(seat.ticks_per_step() * tick_s, plan.place)),
-      first_decision_tick_(first_decision_tick_with(plan.camera_rate_Hz)),
-      arm_tick_(arm_tick_with(plan.camera_rate_Hz)) {
+      first_decision_tick_(first_decision_tick_of(plan)),
+      arm_tick_(first_decision_tick_ - ticks_back(plan, 1) + 1) {
   look();
 }
 
@@ -88,7 +83,7 @@ bool KickScenario::picture_is_due(std::uint32_t tick, std::uint32_t with_tick) c
 
 // Returns false if it was stopped.
 bool KickScenario::boot(const std::function<bool()>& stop) {
-  while (tick_ < boot_ticks_with(plan_.camera_rate_Hz)) {
+  while (tick_ < boot_ticks_of(plan_)) {
     if (picture_is_due(tick_, 0)) {
       seat_->take_picture(world_, tick_);
     }

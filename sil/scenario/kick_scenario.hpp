@@ -4,8 +4,9 @@
 //
 // An episode takes 2,200 ticks: disarm and the first picture; 50 ticks later the second, then arm; 50 later
 // the third, which is decision 0 and starts the ball; 40 decisions; 100 ticks to see the ball leave. A faster camera
-// shows more in the same time; a slower one gets the time for three pictures. Until
-// decision 0 the robot is held and the ball led along its path. A latched fault is cleared before arming.
+// shows more in the same time; a slower one gets the time for as many pictures as tell a motion, and one more. Arming
+// always comes after the last of them before decision 0, so that no other picture is decision 0. Until
+// then the robot is held and the ball led along its path. A latched fault is cleared before arming.
 // Arming and clearing take two steps: the controller's challenge is confirmed in the tick after it came. An emergency
 // stop is never cleared: it ends the run. The boot takes 200 ticks, or four pictures, until the controller believes its
 // camera; tick 0 is SYNC and a picture.
@@ -42,6 +43,7 @@ struct KickPlan {
   std::uint32_t vision_latency_ticks = 0;  // at most a decision: pictures are taken so much before they come
   // Pictures come in the ticks that reach n / rate, one of them with decision 0.
   std::uint32_t camera_rate_Hz = 20;
+  std::uint32_t pictures_a_motion = 1;  // before the controller knows one (robot_profile.hpp)
   bool needs_controller = false;  // one that says nothing during the boot is an error, as on a wall clock
 };
 

@@ -30,7 +30,9 @@ struct StubbornPilot {
 
   SelfTest test_self(const RobotProfile&) { return SelfTest::passed; }
   void reset() {}
-  Decision decide(const RelativeState&, bool extrapolated) { return {.extrapolated = extrapolated}; }
+  Decision decide(const RelativeState&, DecisionDue due) {
+    return {.extrapolated = due == DecisionDue::extrapolated};
+  }
   [[nodiscard]] WheelSpeeds set_point() const { return {wanted_mm_s, wanted_mm_s}; }
 
   std::uint32_t marked = mark;

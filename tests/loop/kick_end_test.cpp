@@ -2,6 +2,8 @@
 // A kick ends by itself: 40 decisions of 50 ms, as the task has it, and then the robot is told to stand.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/loop/bench/node_rig.hpp"
 
 namespace striker::loop {
@@ -9,11 +11,12 @@ namespace {
 
 constexpr std::uint32_t kick_ms = 40 * 50;
 
-// The last Status, ticks that moved, and the tick of the first set-point.
+// The last Status, ticks that moved, and the tick of the first decision.
 struct Watch {
   NodeRig rig;
   can::Status status;
   std::uint32_t moved = 0;
+  std::uint32_t first_tick = 0;
 
   [[nodiscard]] bool is_told_to_move() const {
     return rig.command.left_set_point_2mm_s != 0 || rig.command.right_set_point_2mm_s != 0;
@@ -31,6 +34,7 @@ struct Watch {
       rig.tick();
     }
     moved = is_told_to_move() ? 1 : 0;
+    first_tick = rig.now() - 1;
   }
 
   void run(std::uint32_t ticks) {
@@ -62,6 +66,49 @@ TEST(KickEnd, StandsAfterFortyDecisionsHoweverLongItStaysArmed) {
   EXPECT_EQ(watch.moved, moved);
   EXPECT_EQ(watch.rig.state(), core::State::active) << "standing is no fault";
   EXPECT_EQ(watch.status.kick_over, 1);
+}
+
+// Pictures that come up to 5 ms after the decision they were due for: it is made again, and is one of the forty.
+TEST(KickEnd, APictureThatComesALittleLateTakesNoDecisionFromTheKick) {
+  Watch watch;
+  watch.arm();
+  std::uint32_t made = 1;
+  for (std::uint32_t i = 0; i < kick_ms - 100; ++i) {
+    constexpr std::array<std::uint32_t, 7> late_ticks = {0, 1, 5, 3, 0, 4, 2};
+    watch.rig.picture_late_ticks = late_ticks.at(watch.rig.now() / 50 % late_ticks.size());
+    watch.rig.decision.reset();
+    watch.run(1);
+    made += watch.rig.decision ? 1 : 0;
+    if (watch.rig.decision) {
+      EXPECT_EQ(watch.rig.decision->number, (watch.rig.now() - 1 - watch.first_tick + 25) / 50) << made;
+    }
+  }
+  EXPECT_GT(made, 50U) << "some are made twice";
+  EXPECT_EQ(watch.status.kick_over, 0);
+  watch.run(120);
+  EXPECT_EQ(watch.status.kick_over, 1);
+}
+
+// As if the better picture had come in time.
+TEST(KickEnd, ADecisionThatIsMadeAgainLeavesNoTraceOfTheFirst) {
+  const auto ball_at = [](std::int32_t x_um) {
+    core::RelativeState seen;
+    seen.ball_um = {x_um, x_um / 2};
+    return seen;
+  };
+  using core::DecisionDue;
+  BuiltInPilot in_time;
+  BuiltInPilot late;
+  for (std::int32_t i = 0; i < 5; ++i) {
+    const core::RelativeState seen = ball_at(900'000 - 100'000 * i);
+    const core::Decision expected = in_time.decide(seen, DecisionDue::on_picture);
+    EXPECT_TRUE(late.decide(ball_at(600'000 + i), DecisionDue::extrapolated).extrapolated);
+    const core::Decision made = late.decide(seen, DecisionDue::again);
+    EXPECT_EQ(made.number, expected.number);
+    EXPECT_EQ(made.action, expected.action);
+    EXPECT_FALSE(made.extrapolated);
+    EXPECT_EQ(late.inputs(), in_time.inputs()) << i;
+  }
 }
 
 TEST(KickEnd, TheNextArmingBeginsAnother) {

@@ -75,13 +75,9 @@ RobotFigures figures_of(const core::RobotDescription& robot) {
     return w_rad_s < figures.crossover_rad_s ? 1.0 : loop.margin_rad(w_rad_s);
   }));
 
-  std::int32_t pictures = 1;
-  while (!core::span_a_decision(profile, pictures)) {
-    ++pictures;
-  }
   figures.camera_rate_Hz = robot.camera_rate_Hz;
   figures.camera_latency_ms = robot.camera_latency_ms;
-  figures.motion_ms = pictures * 1e3 / robot.camera_rate_Hz;
+  figures.motion_ms = core::pictures_a_motion(profile) * 1e3 / robot.camera_rate_Hz;
   figures.velocity_step_mm_s = can::um_per_quarter_mm / figures.motion_ms;
 
   figures.slip_m_s2 =

@@ -21,6 +21,7 @@ class NodeRig {
  public:
   bool send_vision = true;
   bool send_wheels = true;
+  std::uint32_t picture_late_ticks = 0;  // than every 50
   std::int32_t ball_y_quarter_mm = 0;  // where it begins to come straight to the robot
   std::int32_t robot_um = 0;           // where it stands, along x
   can::WheelState wheels;
@@ -34,7 +35,7 @@ class NodeRig {
     if (send_wheels) {
       frames.push_back(can::send(wheels, wheel_counter_));
     }
-    if (send_vision && now_ % 50 == 0) {
+    if (send_vision && now_ % 50 == picture_late_ticks) {
       // The ball lies ahead, comes closer and goes away: something to decide about.
       const auto frame = static_cast<std::int32_t>(now_ / 50 % 16);
       const auto phase = static_cast<std::int32_t>(now_ % 8000);
