@@ -18,12 +18,12 @@
 #include "sil/bus/in_process_link.hpp"
 #include "sil/bus/socketcan_link.hpp"
 #include "sil/bus/timed_link.hpp"
+#include "sil/programs/robot_options.hpp"
 #include "sil/record/candump_log.hpp"
 #include "sil/record/decision_csv.hpp"
 #include "sil/record/episode_journal.hpp"
 #include "sil/record/episode_progress.hpp"
 #include "sil/record/pacer.hpp"
-#include "sil/robot/description/robot_file.hpp"
 #include "sil/robot/striker_drives.hpp"
 #include "sil/robot/variation.hpp"
 #include "sil/scenario/kick_scenario.hpp"
@@ -45,25 +45,11 @@ struct Bus {
   [[nodiscard]] ControllerLink& link() const { return timed ? *timed : untimed(); }
 };
 
-core::RobotDescription robot_of(const KickOptions& options) {
-  if (options.robot.empty()) {
-    return loop::built_in_description;
-  }
-  const core::RobotDescription robot = read_robot(options.robot);
-  if (!loop::BuiltInPilot::suits(core::profile_of(robot))) {
-    throw std::runtime_error(fmt::format(
-        "{}: the policy's actions go beyond top_rim_speed_mm_s = {}: train one for this robot, and build with "
-        "-DSTRIKER_POLICY=HEADER",
-        options.robot, robot.top_rim_speed_mm_s));
-  }
-  return robot;
-}
-
 Bus open_bus(const KickOptions& options) {
   Bus bus;
   const std::string interface = interface_of(options.bus);
   if (options.in_process()) {
-    bus.in_process = std::make_unique<InProcessLink>(core::profile_of(robot_of(options)));
+    bus.in_process = std::make_unique<InProcessLink>(core::profile_of(described_robot(options.robot)));
   } else if (options.real_time) {
     bus.socket = std::make_unique<FreeRunningLink>(interface);
   } else {
@@ -115,7 +101,7 @@ class KickSession {
  public:
   KickSession(const KickOptions& options, const Bus& bus, const std::vector<Observer*>& observers)
       : options_(&options),
-        robot_(robot_of(options)),
+        robot_(described_robot(options.robot)),
         variation_(completed(variation_of(options.vary), robot_)),
         plants_(make_plants(plant_kind_of(options.plant).value(), spec_of(robot_), variation_)),
         camera_(make_camera(variation_, options.seed)),

@@ -5,6 +5,7 @@
 
 #include "firmware/host/command_line.hpp"
 #include "sil/bus/bit_rate.hpp"
+#include "sil/programs/robot_options.hpp"
 #include "sil/robot/plant.hpp"
 
 namespace striker::sil {
@@ -27,14 +28,8 @@ void define_episodes(CLI::App& kick, KickOptions& options) {
   kick.add_option("--pose", options.pose, "where the robot stands")
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();
-  host::reads_file(
-      kick.add_option("--robot", options.robot,
-                      "the robot's description, for controller and world (inproc); default: a forward, "
-                      "firmware/robots/forward.toml"));
-  kick.add_option(
-      "--vary", options.vary,
-      "another robot than the controller was told: mass=0.9,friction=0.5,vision_latency_ms=35 (shares: mass, "
-      "torque, friction, ball_damping; vision_noise_mm, vision_latency_ms, command_delay_ms; camera_rate_Hz)");
+  define_robot(kick, options.robot);
+  define_variation(kick, options.vary);
   kick.add_option("--episodes", options.episodes, "how many")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{900000}))
       ->capture_default_str();
@@ -104,8 +99,7 @@ void define(CLI::App& kick, KickOptions& options) {
     host::require_meaning(kick, !options.real_time && !options.in_process(),
                           {"--answer-timeout", "--start-timeout"},
                           "--bus can:IFACE in lockstep (without --realtime)");
-    host::require_meaning(kick, options.in_process(), {"--robot"},
-                          "--bus inproc: a controller on a bus is told of its robot when it is built");
+    require_robot_in_process(kick, options.bus);
     host::require_meaning(kick, options.in_process(), {"--decisions"},
                           "--bus inproc: it reads the controller's own state");
   });

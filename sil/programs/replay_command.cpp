@@ -13,6 +13,7 @@
 #include "sil/bus/in_process_link.hpp"
 #include "sil/bus/socketcan_link.hpp"
 #include "sil/programs/kick_options.hpp"
+#include "sil/programs/robot_options.hpp"
 
 namespace striker::sil {
 
@@ -22,7 +23,7 @@ constexpr int exit_differs = 1;
 
 std::unique_ptr<ControllerLink> link_of(const ReplayOptions& options) {
   if (options.bus == "inproc") {
-    return std::make_unique<InProcessLink>();
+    return std::make_unique<InProcessLink>(core::profile_of(described_robot(options.robot)));
   }
   return std::make_unique<LockstepLink>(
       interface_of(options.bus), SocketCanOptions{std::chrono::milliseconds(options.answer_timeout_ms),
@@ -36,6 +37,7 @@ void define(CLI::App& replay, ReplayOptions& options) {
       replay.add_option("log", options.log, "a candump log of a run in lockstep, as 'kick --log' writes it"))
       ->required();
   replay.add_option("--interface", options.interface, "of the log, where it has more than one");
+  define_robot(replay, options.robot);
   replay
       .add_option("--bus", options.bus,
                   "inproc, or can:IFACE for a 'striker-firmware --challenge-seed 0' there")
@@ -50,6 +52,7 @@ void define(CLI::App& replay, ReplayOptions& options) {
   replay.final_callback([&replay, &options] {
     host::require_meaning(replay, options.bus != "inproc", {"--answer-timeout", "--start-timeout"},
                           "--bus can:IFACE");
+    require_robot_in_process(replay, options.bus);
   });
 }
 

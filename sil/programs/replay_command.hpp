@@ -10,6 +10,7 @@ namespace striker::sil {
 struct ReplayOptions {
   std::string log;
   std::string interface;
+  std::string robot;
   std::string bus = "inproc";
   unsigned answer_timeout_ms = 1000;
   unsigned start_timeout_ms = 10000;

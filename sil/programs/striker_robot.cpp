@@ -7,10 +7,13 @@
 #include <string>
 
 #include "firmware/host/command_line.hpp"
+#include "firmware/host/files.hpp"
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/policy/built_in.hpp"
+#include "sil/programs/robot_options.hpp"
 #include "sil/robot/description/robot_file.hpp"
 #include "sil/robot/description/robot_report.hpp"
+#include "sil/robot/step_response.hpp"
 
 namespace {
 
@@ -44,6 +47,35 @@ int check(const std::string& file, const std::string& json) {
   return fits ? 0 : exit_does_not_fit;
 }
 
+struct StepCommand {
+  std::string file;
+  std::string vary;
+  std::string csv;
+  sil::StepOptions step;
+};
+
+int show_step(const StepCommand& command) {
+  const auto rows =
+      sil::step_response(sil::read_robot(command.file), sil::variation_of(command.vary), command.step);
+  if (!command.csv.empty()) {
+    host::write_file(command.csv, sil::step_csv(rows));
+  }
+  fmt::print("{}", sil::step_table(sil::figures_of(rows, command.step)));
+  return 0;
+}
+
+void define_step(CLI::App& step, StepCommand& command) {
+  host::reads_file(step.add_option("file", command.file, "the description")->required());
+  sil::define_variation(step, command.vary);
+  step.add_option("--set-point", command.step.set_point_m_s, "of both rims, in m/s; left out: the top speed")
+      ->check(CLI::Range(0.01, 4.0));
+  step.add_option("--step-ms", command.step.step_ms, "how long each step lasts")
+      ->check(CLI::Range(10U, 10'000U))
+      ->capture_default_str();
+  step.add_flag("--turn", command.step.turns, "on the spot: the left wheel is told the opposite");
+  host::writes_file(step.add_option("--csv", command.csv, "write every ms of it"));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -53,13 +85,19 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   std::string file;
   std::string json;
-  CLI::App& subcommand = *app.add_subcommand(
+  CLI::App& checked = *app.add_subcommand(
       "check",
       "Acceleration and stopping, the wheel loops' gains and margins, slip and overspeed limits, and whether this "
       "build's policy fits. Exit status: 0 it fits, 1 it does not, 2 wrong use, or no such robot.");
-  host::reads_file(subcommand.add_option("file", file, "the description")->required());
-  host::writes_file(subcommand.add_option("--json", json, "write the figures"));
+  host::reads_file(checked.add_option("file", file, "the description")->required());
+  host::writes_file(checked.add_option("--json", json, "write the figures"));
+  StepCommand command;
+  CLI::App& stepped = *app.add_subcommand(
+      "step",
+      "Steps of the set-point, up, to its opposite and to 0: the firmware's wheel loops on torque drives in the full "
+      "world. striker-plot-steps draws them.");
+  define_step(stepped, command);
   return host::run(
-      app, argc, argv, [&] { return check(file, json); },
+      app, argc, argv, [&] { return checked.parsed() ? check(file, json) : show_step(command); },
       fmt::format("policy {} {:08x}", policy::built_in_name, policy::built_in.identity));
 }

@@ -3,10 +3,10 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -101,17 +101,27 @@ class NoisyCamera final : public Camera {
 
 Variation variation_of(const std::string& text) {
   Variation variation;
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    const std::string_view part = rest.substr(0, rest.find(','));
-    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+  if (text.empty()) {
+    return variation;
+  }
+  std::set<std::string_view> named;
+  for (std::string_view rest = text;;) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view part = rest.substr(0, comma);
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos) {
-      throw std::runtime_error(fmt::format("--vary {}: give NAME=VALUE, as mass=0.9", part));
+      throw std::runtime_error(fmt::format("--vary {}: '{}' is no NAME=VALUE, as mass=0.9", text, part));
     }
-    set(variation, part.substr(0, equals), part.substr(equals + 1));
+    const std::string_view name = part.substr(0, equals);
+    if (!named.insert(name).second) {
+      throw std::runtime_error(fmt::format("--vary {}: {} is named twice", text, name));
+    }
+    set(variation, name, part.substr(equals + 1));
+    if (comma == std::string_view::npos) {
+      return variation;
+    }
+    rest.remove_prefix(comma + 1);
   }
-  return variation;
 }
 
 Variation completed(Variation variation, const core::RobotDescription& described) {

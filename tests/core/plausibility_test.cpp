@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -185,6 +186,36 @@ TEST(PicturePlausibility, WheelsAgreeWithARobotTenPercentOff) {
       EXPECT_FALSE(wheels_agree(robot, from, backwards, odometry.until(50))) << heading;
     }
   }
+}
+
+// A narrow robot and a slow camera: more than a turn between two pictures, of a robot whose wheels are 10 % off.
+TEST(PicturePlausibility, WheelsAgreeHoweverFarTheRobotTurns) {
+  RobotDescription described = forward;
+  described.axle_length_um = 60'000;
+  described.camera_rate_Hz = 10;
+  const RobotProfile narrow = profile_of(described);
+  double furthest = 0.0;
+  for (double left_m_s = -2.5; left_m_s <= 2.5; left_m_s += 0.25) {
+    for (double right_m_s = -2.5; right_m_s <= 2.5; right_m_s += 0.25) {
+      const Way rolled = {.travelled_um = static_cast<std::int32_t>(50'000 * (left_m_s + right_m_s)),
+                          .turned_um = static_cast<std::int32_t>(100'000 * (right_m_s - left_m_s))};
+      for (const double off : {0.9, 1.0, 1.1}) {
+        const double turned = off * 0.1 * (right_m_s - left_m_s) / 0.060;
+        const double chord_um =
+            off * rolled.travelled_um * (turned == 0.0 ? 1.0 : std::sin(turned / 2) / (turned / 2));
+        const Picture to{.number = 1,
+                         .robot_um = {static_cast<std::int32_t>(chord_um * std::cos(turned / 2)),
+                                      static_cast<std::int32_t>(chord_um * std::sin(turned / 2))},
+                         .heading = wrap_angle(static_cast<std::int32_t>(turned * 10'430.4)),
+                         .ball_um = {}};
+        EXPECT_TRUE(wheels_agree(narrow, {}, to, rolled)) << left_m_s << ' ' << right_m_s << ' ' << off;
+        const Picture elsewhere{.number = 1, .robot_um = {0, 700'000}, .heading = to.heading, .ball_um = {}};
+        EXPECT_FALSE(wheels_agree(narrow, {}, elsewhere, rolled)) << left_m_s << ' ' << right_m_s;
+        furthest = std::max(furthest, turned);
+      }
+    }
+  }
+  EXPECT_GT(furthest, 9.0) << "rad";
 }
 
 // 150 ms at the greatest speeds that a wheel state can carry: the sanitized build sees an overflow.

@@ -11,6 +11,7 @@ import unittest
 import files_case
 
 BIN = sys.argv.pop(1)
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 
 RUNS = (("--plant", "drive"), ("--plant", "servo"), ("--pose", "anywhere", "--seed", "7"), ("--bitrate", "1000000"))
 
@@ -44,6 +45,17 @@ class Replay(files_case.FilesCase):
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
                 self.assertIn("4601 ticks: the answers of 460", result.stdout)
                 self.assertNotIn("torque in 0 ticks", result.stdout)
+
+    def test_another_robots_run_needs_its_description(self):
+        with open(os.path.join(ROOT, "firmware", "robots", "forward.toml"), encoding="utf-8") as forward:
+            robot = self.file("heavy.toml", forward.read().replace("body_mass_g = 1500", "body_mass_g = 1900"))
+        log = self.log("--robot", robot)
+        self.assertEqual(run("striker-sil", "replay", log, "--robot", robot).returncode, 0)
+        other = run("striker-sil", "replay", log)
+        self.assertEqual(other.returncode, 1, other.stdout)
+        refused = run("striker-sil", "replay", log, "--robot", robot, "--bus", "can:vcan0")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--robot", refused.stderr)
 
     def test_a_recording_arms_no_controller_that_challenges_otherwise(self):
         for arguments in RUNS:

@@ -36,6 +36,34 @@ class Robot(files_case.FilesCase):
         with open(self.file("a.json"), encoding="utf-8") as stream:
             self.assertIs(json.load(stream)["policy_fits"], False)
 
+    def test_a_step_is_told_and_written(self):
+        forward = os.path.join(files_case.ROBOTS, "forward.toml")
+        result = robot("step", forward, "--vary", "mass=0.7", "--step-ms", "300", "--csv", self.file("step.csv"))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        for word in ("rise ", "overshoot ", "slip "):
+            self.assertIn(word, result.stdout)
+        with open(self.file("step.csv"), encoding="utf-8") as stream:
+            lines = stream.read().splitlines()
+        self.assertEqual(lines[0], "time_ms,set_point_mm_s,measured_mm_s,rolling_mm_s,torque_mNm,moved_mm_s")
+        self.assertEqual(len(lines), 1 + 4 * 300)
+        for wrong in (("--set-point", "2.6"), ("--vary", ""), ("--vary", "mass=0.7,"), ("--vary", "mass=1,mass=2")):
+            refused = robot("step", forward, *wrong)
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""), wrong)
+            self.assertEqual(len(refused.stderr.splitlines()), 1, refused.stderr)
+
+    def test_the_steps_are_drawn_to_the_same_bytes(self):
+        pictures = []
+        for folder in ("a", "b"):
+            out = self.file(folder)
+            done = subprocess.run([os.path.join(BIN, "striker-plot-steps"),
+                                   os.path.join(files_case.ROBOTS, "forward.toml"), "-o", out],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(sorted(os.listdir(out)), ["forward_steps.png", "forward_steps.svg"])
+            with open(os.path.join(out, "forward_steps.svg"), "rb") as picture:
+                pictures.append(picture.read())
+        self.assertEqual(*pictures)
+
     def test_what_is_no_robot_is_refused_in_one_line(self):
         wrong = self.file("wrong.toml", "body_mass_g = 2.5\n")
         for arguments, words in (((), ("subcommand",)), (("check",), ("file",)), (("check", "/none.toml"), ("/none.toml",)),

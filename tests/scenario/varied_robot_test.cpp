@@ -117,7 +117,8 @@ TEST(Variation, IsReadOrRefusedByName) {
   EXPECT_EQ(read, (Variation{.mass = 0.9, .vision_noise_mm = 2.5, .vision_latency_ms = 35}));
   EXPECT_EQ(variation_of(""), Variation{});
   for (const std::string wrong : {"mass", "mass=", "mass=nan", "mass=0", "mas=1", "vision_latency_ms=1.5",
-                                  "vision_latency_ms=51", "camera_rate_Hz=9", "camera_rate_Hz=20.5", "=1"}) {
+                                  "vision_latency_ms=51", "camera_rate_Hz=9", "camera_rate_Hz=20.5", "=1",
+                                  "mass=0.9,", ",mass=0.9", "mass=0.9,,torque=1", ",", "mass=0.9,mass=0.9"}) {
     EXPECT_THROW((void)variation_of(wrong), std::runtime_error) << wrong;
   }
 }

@@ -18,6 +18,7 @@ constexpr bool beyond(const Vector& from, const Vector& to, std::int32_t limit_u
 // The wheels may slip, and the robot may be pushed, by this much between two pictures, and by a quarter of the way.
 constexpr std::int32_t slip_um = 45'000;
 constexpr std::int32_t slip_angle = 65536 / 16;
+constexpr std::int32_t half_turn = 65536 / 2;
 
 // Twice as far as any wheels turn a robot in the time between two pictures; with the narrowest axle's gain, 1,068, it stays
 // within 32 bits.
@@ -58,17 +59,23 @@ bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& 
          !beyond(from.ball_um, to.ball_um, greatest_ball_speed_mm_s * elapsed_ms + greatest_jump_um);
 }
 
-// On an arc the way goes along the mean heading, and a curved one is shorter than what the wheels rolled.
+// On an arc the way goes along the mean heading, and a curved one is shorter than what the wheels rolled. Which way round
+// a robot went that may have turned by half a turn is not seen: then the way is known by its length alone.
 bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to, const Way& rolled) {
   const BinaryAngle turned = wrap_angle(to.heading - from.heading);
-  const BinaryAngle rolled_turn = wrap_angle(
-      std::clamp(rolled.turned_um, -greatest_turned_um, greatest_turned_um) * robot.turn_q12 / 4096);
-  if (magnitude(wrap_angle(turned - rolled_turn)) > slip_angle + magnitude(rolled_turn) / 4) {
+  const std::int32_t rolled_turn =
+      std::clamp(rolled.turned_um, -greatest_turned_um, greatest_turned_um) * robot.turn_q12 / 4096;
+  const std::int32_t turn_slip = slip_angle + magnitude(rolled_turn) / 4;
+  if (magnitude(wrap_angle(turned - wrap_angle(rolled_turn))) > turn_slip) {
     return false;
   }
-  const Vector expected = rotate({rolled.travelled_um, 0}, wrap_angle(from.heading + turned / 2));
   const Vector moved = {to.robot_um.x - from.robot_um.x, to.robot_um.y - from.robot_um.y};
-  return !beyond(moved, expected, slip_um + magnitude(rolled.travelled_um) / 4);
+  const std::int32_t way_um = magnitude(rolled.travelled_um);
+  if (magnitude(rolled_turn) + turn_slip > half_turn) {
+    return !beyond(moved, {}, slip_um + way_um + way_um / 4);
+  }
+  const Vector expected = rotate({rolled.travelled_um, 0}, wrap_angle(from.heading + turned / 2));
+  return !beyond(moved, expected, slip_um + way_um / 4);
 }
 
 bool WheelPlausibility::follows(const RobotProfile& robot, Wheel& wheel, std::int32_t measured_mm_s) {

@@ -22,8 +22,8 @@ class NodeRig {
   bool send_vision = true;
   bool send_wheels = true;
   std::uint32_t picture_late_ticks = 0;  // than every 50
-  std::int32_t ball_y_quarter_mm = 0;  // where it begins to come straight to the robot
-  std::int32_t robot_um = 0;           // where it stands, along x
+  std::int32_t ball_y_quarter_mm = 0;    // where it begins to come straight to the robot
+  std::int32_t robot_um = 0;             // where it stands, along x
   can::WheelState wheels;
   std::vector<can::Frame> extra;      // for the next tick only
   std::vector<can::Frame> delivered;  // in the last tick

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/programs/robot_options.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "firmware/host/command_line.hpp"
+#include "firmware/loop/built_in_node.hpp"
+#include "sil/robot/description/robot_file.hpp"
+
+namespace striker::sil {
+
+void define_robot(CLI::App& command, std::string& file) {
+  host::reads_file(command.add_option("--robot", file,
+                                      "the description that controller and world (inproc) are of; default: a "
+                                      "forward, firmware/robots/forward.toml"));
+}
+
+void define_variation(CLI::App& command, std::string& vary) {
+  command
+      .add_option(
+          "--vary", vary,
+          "another robot than the controller was told: mass=0.9,friction=0.5,vision_latency_ms=35 (shares: mass, "
+          "torque, friction, ball_damping; vision_noise_mm, vision_latency_ms, command_delay_ms; camera_rate_Hz)")
+      ->check([](const std::string& text) { return text.empty() ? "give NAME=VALUE, as mass=0.9" : ""; });
+}
+
+void require_robot_in_process(CLI::App& command, const std::string& bus) {
+  host::require_meaning(command, bus == "inproc", {"--robot"},
+                        "--bus inproc: a controller on a bus is told of its robot when it is built");
+}
+
+core::RobotDescription described_robot(const std::string& file) {
+  if (file.empty()) {
+    return loop::built_in_description;
+  }
+  const core::RobotDescription robot = read_robot(file);
+  if (!loop::BuiltInPilot::suits(core::profile_of(robot))) {
+    throw std::runtime_error(fmt::format(
+        "{}: the policy's actions go beyond top_rim_speed_mm_s = {}: train one for this robot, and build with "
+        "-DSTRIKER_POLICY=HEADER",
+        file, robot.top_rim_speed_mm_s));
+  }
+  return robot;
+}
+
+}  // namespace striker::sil
