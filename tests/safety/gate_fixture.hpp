@@ -43,8 +43,10 @@ class GateRules : public testing::Test {
       feed();
     }
   }
-  // One that the drives sent, and that nobody received.
+  // One that was sent, and that nobody received.
   void lose_wheels() { static_cast<void>(can::send(can::WheelState{}, wheels_)); }
+  void lose_pose() { static_cast<void>(can::send(can::VisionPose{}, pose_)); }
+  void lose_ball() { static_cast<void>(can::send(can::VisionBall{}, ball_)); }
   void receive(const can::Frame& frame) { gate.take({&frame, 1}, tick); }
 
   can::FrameList send(const can::Frame& frame) {

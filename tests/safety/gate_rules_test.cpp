@@ -151,6 +151,45 @@ TEST_F(GateRules, AQuarterOfTheWheelStatesMayBeLost) {
   }
 }
 
+// Counters 0, 2, 4, 6, 8 and 10 to 15 again and again, so that they go on from the true ones: recorded frames, of which no
+// eleven may pass for a sender's.
+TEST_F(GateRules, ElevenOldWheelStatesAreNoneHoweverTheyRepeat) {
+  drive();
+  std::array<can::Frame, 16> old;
+  can::SendCounter counter;
+  for (can::Frame& frame : old) {
+    frame = can::send(can::WheelState{}, counter);
+  }
+  sends_wheels = false;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    constexpr std::array<std::size_t, 11> kept = {13, 14, 15, 0, 2, 4, 6, 8, 10, 11, 12};
+    receive(old.at(kept.at(i % kept.size())));
+    feed();
+    EXPECT_TRUE(i < 50 || !moves()) << i;
+  }
+}
+
+TEST_F(GateRules, HalfOfThePicturesMayBeLostAndNoMore) {
+  for (const auto lose : {&GateRules_HalfOfThePicturesMayBeLostAndNoMore_Test::lose_pose,
+                          &GateRules_HalfOfThePicturesMayBeLostAndNoMore_Test::lose_ball}) {
+    confirm(clear);
+    drive();
+    for (std::uint32_t i = 0; i < 450; ++i) {
+      (this->*lose)();
+      feed();
+      EXPECT_TRUE(moves()) << i;
+    }
+    for (std::uint32_t i = 0; i < 450; ++i) {
+      (this->*lose)();
+      if (i % 3 == 0) {
+        (this->*lose)();
+      }
+      feed();
+      EXPECT_TRUE(i < 210 || !moves()) << i;
+    }
+  }
+}
+
 TEST_F(GateRules, BeingArmedEndsAndIsRenewed) {
   drive();
   for (int renewal = 0; renewal < 4; ++renewal) {
