@@ -84,8 +84,8 @@ class CommandGate {
       if (can::is<can::FaultReport>(frame)) {
         armed_ = false;
       } else if (can::is<can::Challenge>(frame)) {
-        static_cast<void>(can::receive(frame, challenge_));
-        challenge_tick_ = tick;
+        const bool valid = can::receive(frame, challenge_) == can::Verdict::accepted;
+        challenge_tick_ = valid ? tick : challenge_tick_;
       } else if (std::find(Drives::sends.begin(), Drives::sends.end(), frame.id) != Drives::sends.end()) {
         check_command(frame, tick);
       }

@@ -86,6 +86,20 @@ TEST_F(GateRules, AChallengeLastsItsTime) {
   }
 }
 
+TEST_F(GateRules, AChallengeOutOfRangeGivesTheOpenOneNoMoreTime) {
+  feed(13);
+  challenge(arm, 5);
+  feed(500);
+  can::SendCounter counter;
+  can::Frame none = can::send(can::Challenge{.mode = arm, .challenge = 1}, counter);
+  none.data[2] = 0;  // a challenge is never 0
+  can::protect(none, can::layout<can::Challenge>.info.data_ids, can::counter_of(none));
+  send(none);
+  feed(101);
+  order(arm, 5);
+  EXPECT_FALSE(moves());
+}
+
 // A dozen steps of the wheel states' counter, three of a picture's: no fewer, and no more.
 class GateBelief : public GateRules, public testing::WithParamInterface<int> {};
 TEST_P(GateBelief, NeedsItsStreak) {
