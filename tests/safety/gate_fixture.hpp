@@ -47,6 +47,7 @@ class GateRules : public testing::Test {
   void lose_wheels() { static_cast<void>(can::send(can::WheelState{}, wheels_)); }
   void lose_pose() { static_cast<void>(can::send(can::VisionPose{}, pose_)); }
   void lose_ball() { static_cast<void>(can::send(can::VisionBall{}, ball_)); }
+  void lose_order() { static_cast<void>(can::send(can::ModeCommand{}, mode_)); }
   void receive(const can::Frame& frame) { gate.take({&frame, 1}, tick); }
 
   can::FrameList send(const can::Frame& frame) {
@@ -67,8 +68,10 @@ class GateRules : public testing::Test {
     send(can::send(can::Challenge{.mode = mode, .challenge = number}, challenge_));
   }
   void order(std::int32_t mode, std::int32_t number) {
-    receive(can::send(can::ModeCommand{.mode = mode, .challenge = number}, mode_));
+    last_order_ = can::send(can::ModeCommand{.mode = mode, .challenge = number}, mode_);
+    receive(last_order_);
   }
+  void repeat_order() { receive(last_order_); }
   void confirm(std::int32_t mode) {
     challenge(mode, 77);
     order(mode, 77);
@@ -80,6 +83,7 @@ class GateRules : public testing::Test {
   }
 
  private:
+  can::Frame last_order_;
   can::SendCounter wheels_, pose_, ball_, challenge_, command_, mode_;
 };
 

@@ -216,6 +216,28 @@ TEST_F(GateRules, BeingArmedEndsAndIsRenewed) {
   EXPECT_FALSE(moves());
 }
 
+// Steps of the operator's counter: how many of his frames there were for each that came. What came before does not count,
+// as the arming's frame comes twice.
+TEST_F(GateRules, ThreeRenewalsInARowRenewAndHalfOfThemMayBeLost) {
+  for (const auto& [steps, renews] : {std::pair{std::vector{1, 1}, false},
+                                      {std::vector{1, 1, 1}, true},
+                                      {std::vector{2, 2, 2}, true},
+                                      {std::vector{3, 2, 2}, false}}) {
+    confirm(clear);
+    drive();
+    repeat_order();
+    feed(5'000);
+    for (const int step : steps) {
+      for (int lost = 1; lost < step; ++lost) {
+        lose_order();
+      }
+      order(renew, 0);
+    }
+    feed(5'200);
+    EXPECT_EQ(moves(), renews) << steps.size() << ' ' << steps.front();
+  }
+}
+
 TEST_F(GateRules, ADisarmEndsIt) {
   drive();
   order(static_cast<std::int32_t>(can::Mode::disarm), 0);
