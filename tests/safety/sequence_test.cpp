@@ -31,6 +31,8 @@ TEST(Sequence, IsFreshAfterAStreakOfSmallSteps) {
   EXPECT_FALSE(is_fresh_after({}));
   EXPECT_FALSE(is_fresh_after({1, 1}));
   EXPECT_TRUE(is_fresh_after({1, 1, 1}));
+  EXPECT_TRUE(is_fresh_after({3, 1, 1})) << "two missing at once";
+  EXPECT_TRUE(is_fresh_after({2, 2, 2, 2})) << "each streak has an account of its own";
   EXPECT_TRUE(is_fresh_after({2, 2, 2, 2, 2, 2, 2}));
   EXPECT_FALSE(is_fresh_after({3, 3, 3, 3, 3, 3, 3})) << "two of three are missing";
 }
@@ -39,6 +41,7 @@ TEST(Sequence, ARepeatedAJumpingOrAWrongFrameBreaksTheStreak) {
   for (const std::uint32_t breaking : {0U, 4U, 15U, 16U}) {
     EXPECT_FALSE(is_fresh_after({1, 1, 1, 1, 1, breaking})) << breaking;
     EXPECT_FALSE(is_fresh_after({1, 1, 1, 1, 1, breaking, 1, 1})) << breaking;
+    EXPECT_FALSE(is_fresh_after({1, 1, 1, 2, breaking})) << breaking << " where one is missing";
     EXPECT_TRUE(is_fresh_after({1, 1, 1, 1, 1, breaking, 1, 1, 1})) << breaking;
   }
 }
