@@ -100,7 +100,8 @@ class E2eMachine {
   // After a full window this one leaves just enough.
   static constexpr std::uint32_t forgiven_step = limits.counts - limits.least_correct + 1;
   static_assert(limits.counts <= counter_modulus && limits.least_first >= 1 &&
-                limits.least_first <= limits.least_correct && limits.least_correct <= limits.counts);
+                limits.least_first <= limits.least_correct && limits.least_correct <= limits.counts &&
+                limits.least_correct <= limits.steps_alone);
 
   void judge() {
     window_ &= mask;

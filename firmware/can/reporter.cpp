@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/can/reporter.hpp"
 
+#include "firmware/core/decision_clock.hpp"
 #include "firmware/core/tick.hpp"
 
 namespace striker::can {
@@ -43,9 +44,7 @@ void Reporter::report(std::uint32_t tick, const core::Actions& actions, const Ig
   if (actions.challenge.order != core::Order::none) {
     frames.add(send(challenge_of(actions.challenge), challenge_counter_));
   }
-  if (actions.decision) {
-    frames.add(decision_frame(*actions.decision));
-  }
+  report_decision(tick, actions, frames);
   const bool changed = actions.state != told_state_ || actions.fault != told_fault_;
   const bool faulty = actions.state == core::State::fault;
   if (faulty && (changed || port.repeat_fault || fault_report_.due(tick, period<FaultReport>))) {
@@ -68,6 +67,17 @@ void Reporter::report(std::uint32_t tick, const core::Actions& actions, const Ig
                             .decision_period_ms = core::decision_period_ms,
                             .policy_low = static_cast<std::int32_t>(policy_identity & 0xFFFFU),
                             .policy_high = static_cast<std::int32_t>(policy_identity >> 16U)}));
+  }
+}
+
+void Reporter::report_decision(std::uint32_t tick, const core::Actions& actions, FrameList& frames) {
+  if (actions.decision) {
+    untold_ = actions.decision;
+    untold_tick_ = tick;
+  }
+  if (untold_ && (!untold_->provisional || tick - untold_tick_ > core::decision_window_ticks)) {
+    frames.add(decision_frame(*untold_));
+    untold_.reset();
   }
 }
 

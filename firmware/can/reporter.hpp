@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller's send side but for the drives: frames of what it says, each when it is due.
 //
-// In the order of sending: Challenge in the tick of a request; Decision in the tick that made one; FaultReport at
+// In the order of sending: Challenge in the tick of a request; Decision in the tick that made one, or, where a late picture
+// may make it again, in the tick of that or when its time is over: each number goes out once; FaultReport at
 // a fault and every 100 ms while it is latched; Status at a change and every 10 ms; Safety at a change of the faults
 // and every 100 ms; Timing and Heartbeat every 100 ms; Version every second.
 // The periods are the message table's.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/frame_list.hpp"
@@ -52,6 +54,7 @@ class Reporter {
               const PortReport& port, std::uint32_t policy_identity, FrameList& frames);
 
  private:
+  void report_decision(std::uint32_t tick, const core::Actions& actions, FrameList& frames);
   void report_fault(std::uint32_t tick, const core::Actions& actions, FrameList& frames);
   void report_status(std::uint32_t tick, const core::Actions& actions, const IgnoredFrames& ignored,
                      FrameList& frames);
@@ -59,6 +62,8 @@ class Reporter {
   void report_safety(std::uint32_t tick, const core::Actions& actions, const PortReport& port,
                      FrameList& frames);
 
+  std::optional<core::Decision> untold_;
+  std::uint32_t untold_tick_ = 0;  // that made it
   core::State told_state_ = core::State::boot;
   core::Fault told_fault_ = core::Fault::none;
   core::Faults told_faults_ = 0;

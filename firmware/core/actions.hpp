@@ -28,6 +28,7 @@ struct Decision {
   std::uint32_t number = 0;  // since arming, from 0
   std::uint8_t action = 0;
   bool extrapolated = false;      // decided without a new picture
+  bool provisional = false;       // a picture that comes within the decision window makes it again
   bool over = false;              // the motion's time is past: the wheels are to stand
   std::int32_t best_q_256th = 0;  // Q of the action, in 1/256
   std::int32_t next_q_256th = 0;  // Q of the best other action

@@ -18,7 +18,8 @@ namespace striker::core {
 
 inline constexpr std::uint32_t decision_window_ticks = 5;
 
-enum class DecisionDue : std::uint8_t { no, on_picture, extrapolated, again };
+// `provisional`: extrapolated, and a picture within the window makes it `again`.
+enum class DecisionDue : std::uint8_t { no, on_picture, extrapolated, provisional, again };
 
 class DecisionClock {
  public:
@@ -42,7 +43,7 @@ class DecisionClock {
     if (awaits_first_picture_ == 0 && phase >= decision_period_ticks) {
       last_extrapolated_ = 1;
       decision_tick_ = tick - phase % decision_period_ticks;
-      return DecisionDue::extrapolated;
+      return on_each_picture ? DecisionDue::provisional : DecisionDue::extrapolated;
     }
     return DecisionDue::no;
   }

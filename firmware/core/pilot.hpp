@@ -113,7 +113,8 @@ class Pilot {
     set_point_ = over ? WheelSpeeds{} : set_point_of(q.action, mirror);
     return {.number = decisions_++,
             .action = q.action,
-            .extrapolated = due == DecisionDue::extrapolated,
+            .extrapolated = due == DecisionDue::extrapolated || due == DecisionDue::provisional,
+            .provisional = due == DecisionDue::provisional,
             .over = over,
             .best_q_256th = q.sums[q.action] >> output_shift,
             .next_q_256th = runner_up(q) >> output_shift};

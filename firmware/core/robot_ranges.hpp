@@ -40,6 +40,19 @@ inline constexpr std::array robot_keys = {
   });
 }
 
+// What the rim of a wheel in the air gains in a tick at the torque limit: a disc's, torque over half its mass and its
+// radius. Of a wheel that jumps by more than 1,000 mm/s (estimation/plausibility.cpp) the controller thinks that its sensor
+// is broken: a robot whose own wheels come near that would stop at every contact.
+[[nodiscard]] constexpr std::int64_t free_rim_gain_mm_s(const RobotDescription& robot) {
+  return 2'000'000 * std::int64_t{robot.torque_limit_mNm} /
+         (std::int64_t{robot.wheel_radius_um} * robot.wheel_mass_g);
+}
+inline constexpr std::int64_t greatest_free_rim_gain_mm_s = 800;
+[[nodiscard]] constexpr bool wheels_are_heavy_enough(const RobotDescription& robot) {
+  return free_rim_gain_mm_s(robot) <= greatest_free_rim_gain_mm_s;
+}
+
 static_assert(in_range(forward) && in_range(defender) && in_range(goalkeeper));
+static_assert(free_rim_gain_mm_s(forward) == 200 && free_rim_gain_mm_s(defender) == 600);
 
 }  // namespace striker::core

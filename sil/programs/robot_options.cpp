@@ -8,8 +8,23 @@
 #include "firmware/host/command_line.hpp"
 #include "firmware/loop/built_in_node.hpp"
 #include "sil/robot/description/robot_file.hpp"
+#include "sil/robot/variation.hpp"
 
 namespace striker::sil {
+
+namespace {
+
+// Before any file is opened.
+std::string vary_problem(const std::string& text) {
+  try {
+    static_cast<void>(variation_of(text));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return text.empty() ? "give NAME=VALUE, as mass=0.9" : "";
+}
+
+}  // namespace
 
 void define_robot(CLI::App& command, std::string& file) {
   host::reads_file(command.add_option("--robot", file,
@@ -23,7 +38,7 @@ void define_variation(CLI::App& command, std::string& vary) {
           "--vary", vary,
           "another robot than the controller was told: mass=0.9,friction=0.5,vision_latency_ms=35 (shares: mass, "
           "torque, friction, ball_damping; vision_noise_mm, vision_latency_ms, command_delay_ms; camera_rate_Hz)")
-      ->check([](const std::string& text) { return text.empty() ? "give NAME=VALUE, as mass=0.9" : ""; });
+      ->check(vary_problem);
 }
 
 void require_robot_in_process(CLI::App& command, const std::string& bus) {

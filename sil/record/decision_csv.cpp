@@ -19,15 +19,31 @@ DecisionCsv::DecisionCsv(const std::filesystem::path& file, const loop::BuiltInP
 
 void DecisionCsv::end_tick(const Snapshot& snapshot) {
   const std::uint32_t decisions = pilot_->decisions();
-  if (!snapshot.deciding || decisions == last_decisions_) {
-    return;
-  }
+  const bool another = decisions != last_decisions_;
   last_decisions_ = decisions;
-  if (decisions == 0) {
-    return;
+  if (another || !snapshot.deciding) {
+    write_row();
   }
-  file_.write(fmt::format("{},{},{:d},{},{}\n", snapshot.episode, decisions - 1, !snapshot.contact,
-                          pilot_->action(), fmt::join(pilot_->inputs(), ",")));
+  if (another && snapshot.deciding && decisions != 0) {
+    row_ = {.episode = snapshot.episode, .decision = decisions - 1, .before_contact = !snapshot.contact};
+  }
+  if (row_) {
+    row_->action = pilot_->action();
+    row_->inputs = pilot_->inputs();
+  }
+}
+
+void DecisionCsv::end_run() {
+  write_row();
+  file_.finish();
+}
+
+void DecisionCsv::write_row() {
+  if (row_) {
+    file_.write(fmt::format("{},{},{:d},{},{}\n", row_->episode, row_->decision, row_->before_contact,
+                            row_->action, fmt::join(row_->inputs, ",")));
+    row_.reset();
+  }
 }
 
 }  // namespace striker::sil

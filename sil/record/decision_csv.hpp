@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "firmware/host/atomic_file.hpp"
 #include "firmware/loop/built_in_node.hpp"
@@ -19,14 +20,25 @@ class DecisionCsv final : public Observer {
   // `pilot` outlives it.
   DecisionCsv(const std::filesystem::path& file, const loop::BuiltInPilot& pilot);
 
-  // A row where the controller has decided since the last tick.
+  // A row for each decision, as it was when the next one was due: a late picture may have made it again.
   void end_tick(const Snapshot& snapshot) override;
-  void end_run() override { file_.finish(); }
+  void end_run() override;
 
  private:
+  struct Row {
+    std::uint64_t episode = 0;
+    std::uint32_t decision = 0;
+    bool before_contact = false;
+    std::uint32_t action = 0;
+    loop::BuiltInPilot::Inputs inputs = {};
+  };
+
+  void write_row();
+
   host::AtomicFile file_;
   const loop::BuiltInPilot* pilot_;
   std::uint32_t last_decisions_ = 0;
+  std::optional<Row> row_;
 };
 
 }  // namespace striker::sil

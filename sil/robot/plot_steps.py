@@ -30,22 +30,25 @@ matplotlib.rcParams["svg.hashsalt"] = "striker"
 METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
 
 
+class PlotError(Exception):
+    """What cannot be drawn, in one line."""
+
+
 def rows_of(robot, variation):
     with tempfile.TemporaryDirectory() as folder:
         table = os.path.join(folder, "step.csv")
-        words = [os.path.join(HERE, "striker-robot"), "step", robot, "--csv", table]
+        words = [os.path.join(HERE, "striker-robot"), "step", os.path.abspath(robot), "--csv", table]
         done = subprocess.run(words + (["--vary", variation] if variation else []), capture_output=True, text=True,
                               check=False)
         if done.returncode != 0:
-            sys.exit(f"striker-plot-steps: {done.stderr.strip()}")
+            raise PlotError(done.stderr.strip().removeprefix("striker-robot: "))
         with open(table, encoding="utf-8", newline="") as stream:
             return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(stream)]
 
 
-def draw(robot, directory):
+def draw(robot, variations, directory):
     figure, axes = plt.subplots(2, len(VARIATIONS), figsize=(15, 5.5), sharex=True, sharey="row", layout="constrained")
-    for column, (title, variation) in zip(axes.T, VARIATIONS):
-        rows = rows_of(robot, variation)
+    for column, (title, rows) in zip(axes.T, variations):
         time_s = [row["time_ms"] / 1e3 for row in rows]
         for name, label, style in (("set_point_mm_s", "set-point", "k:"), ("measured_mm_s", "rim", "C1-"),
                                    ("moved_mm_s", "robot", "C0-")):
@@ -61,11 +64,20 @@ def draw(robot, directory):
     name = os.path.splitext(os.path.basename(robot))[0]
     figure.suptitle(f"{name}: steps of the set-point")
     for kind, metadata in METADATA.items():
-        target = os.path.join(directory, f"{name}_steps.{kind}")
-        figure.savefig(f"{target}.part", format=kind, metadata=metadata, dpi=100)
-        os.replace(f"{target}.part", target)
-        print(target)
+        save(figure, os.path.join(directory, f"{name}_steps.{kind}"), kind, metadata)
     plt.close(figure)
+
+
+def save(figure, target, kind, metadata):
+    part = f"{target}.part"
+    try:
+        figure.savefig(part, format=kind, metadata=metadata, dpi=100)
+        os.replace(part, target)
+    except OSError:
+        if os.path.exists(part):
+            os.remove(part)
+        raise
+    print(target)
 
 
 def main():
@@ -73,13 +85,30 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("robot", nargs="+", help="a description, as firmware/robots/forward.toml")
     parser.add_argument("-o", "--out", required=True, metavar="DIR", help="is made if there is none")
+    parser.add_argument("--version", action="version", version=version())
     options = parser.parse_args()
     names = [os.path.splitext(os.path.basename(robot))[0] for robot in options.robot]
-    if len(set(names)) < len(names):
-        parser.error("two descriptions have the same name, and so would their pictures")
-    os.makedirs(options.out, exist_ok=True)
-    for robot in options.robot:
-        draw(robot, options.out)
+    try:
+        if len(set(names)) < len(names):
+            raise PlotError("two descriptions have the same name, and so would their pictures")
+        steps = [[(title, rows_of(robot, variation)) for title, variation in VARIATIONS] for robot in options.robot]
+        os.makedirs(options.out, exist_ok=True)
+        for robot, variations in zip(options.robot, steps):
+            draw(robot, variations, options.out)
+    except PlotError as error:
+        refuse(error)
+    except OSError as error:
+        refuse(f"{error.filename or options.out}: {error.strerror}; give a folder that can be written with -o")
+
+
+def version():
+    told = subprocess.run([os.path.join(HERE, "striker-robot"), "--version"], capture_output=True, text=True, check=False)
+    return told.stdout.strip().replace("striker-robot", "striker-plot-steps")
+
+
+def refuse(text):
+    print(f"striker-plot-steps: {text}", file=sys.stderr)
+    sys.exit(2)
 
 
 if __name__ == "__main__":

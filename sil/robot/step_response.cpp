@@ -16,6 +16,7 @@ namespace striker::sil {
 namespace {
 
 constexpr std::size_t the_robot = 0;
+constexpr double least_slip_mm_s = 50.0;  // more than three counts of the encoder in a ms
 
 core::WheelSpeeds counted(const RimSpeeds& measured) {
   return {static_cast<std::int32_t>(std::lround(1e3 * measured.left_m_s)),
@@ -44,6 +45,13 @@ std::vector<StepRow> step_response(const core::RobotDescription& robot, const Va
   if (std::abs(set_point_mm_s) > robot.top_rim_speed_mm_s) {
     throw std::runtime_error(fmt::format("a set-point of {} mm/s is beyond top_rim_speed_mm_s = {}",
                                          set_point_mm_s, robot.top_rim_speed_mm_s));
+  }
+  Variation of_camera_and_ball = variation;
+  of_camera_and_ball.mass = of_camera_and_ball.torque = of_camera_and_ball.friction = 1.0;
+  of_camera_and_ball.command_delay_ms.reset();
+  if (of_camera_and_ball != Variation{}) {
+    throw std::runtime_error(
+        "a step has no camera and no ball: vary mass, torque, friction and command_delay_ms");
   }
   const core::RobotProfile profile = core::profile_of(robot);
   const auto plants = make_plants(PlantKind::drive, spec_of(robot), completed(variation, robot));
@@ -84,17 +92,18 @@ StepFigures figures_of(const std::vector<StepRow>& rows, const StepOptions& opti
   const double set_point_mm_s = first->set_point_mm_s;
   double greatest = 0.0;
   for (auto row = first; row != first + options.step_ms; ++row) {
-    const double share = row->measured_mm_s / set_point_mm_s;
+    const double share = row->moved_mm_s / set_point_mm_s;
     const auto passed_ms = static_cast<int>(row->time_ms - options.step_ms);
     figures.tenth_ms = figures.tenth_ms < 0 && share >= 0.1 ? passed_ms : figures.tenth_ms;
     figures.nine_tenths_ms = figures.nine_tenths_ms < 0 && share >= 0.9 ? passed_ms : figures.nine_tenths_ms;
     greatest = std::max(greatest, share);
   }
   figures.overshoot_percent = std::max(0.0, 100.0 * (greatest - 1.0));
+  const double slips_mm_s = std::max(0.1 * std::abs(set_point_mm_s), least_slip_mm_s);
   for (auto row = rows.begin(); row + 1 < rows.end(); ++row) {
     const double slip_mm_s = std::abs((row + 1)->measured_mm_s - row->moved_mm_s);
     figures.greatest_slip_mm_s = std::max(figures.greatest_slip_mm_s, slip_mm_s);
-    figures.slipping_ms += slip_mm_s > 0.1 * std::abs(set_point_mm_s) ? 1 : 0;
+    figures.slipping_ms += slip_mm_s > slips_mm_s ? 1 : 0;
   }
   return figures;
 }
@@ -106,8 +115,8 @@ std::string step_table(const StepFigures& figures) {
           : fmt::format("{} ms from a tenth to nine tenths of the first step, {} ms in all",
                         figures.nine_tenths_ms - figures.tenth_ms, figures.nine_tenths_ms);
   return fmt::format(
-      "{:<10} {}\n{:<10} {:.1f} % of the step\n{:<10} {:.0f} mm/s between rim and floor at most; {} ms of all above a "
-      "tenth of the step\n",
+      "{:<10} {}\n{:<10} {:.1f} % of the step\n{:<10} {:.0f} mm/s between rim and floor at most; above a tenth of the step for "
+      "{} ms in all\n",
       "rise", rise, "overshoot", figures.overshoot_percent, "slip", figures.greatest_slip_mm_s,
       figures.slipping_ms);
 }

@@ -33,18 +33,18 @@ struct StepRow {
 };
 
 // `variation` is completed with the description (variation.hpp). Throws std::runtime_error where the set-point is beyond
-// the robot's top speed.
+// the robot's top speed, and where camera or ball are varied.
 [[nodiscard]] std::vector<StepRow> step_response(const core::RobotDescription& robot,
                                                  const Variation& variation, const StepOptions& options);
 
-// When the rim reached a tenth and nine tenths of the first step and how far it went beyond, in % of it; times are -1
-// where it did not.
+// When the floor under the right wheel passed by with a tenth and with nine tenths of the first step, and how far beyond
+// the step it went, in % of it; times are -1 where it did not come to that. A rim that spins is no step followed.
 struct StepFigures {
   int tenth_ms = -1;
   int nine_tenths_ms = -1;
   double overshoot_percent = 0.0;
   double greatest_slip_mm_s = 0.0;  // between rim and floor
-  int slipping_ms = 0;              // in which that was more than a tenth of the set-point, of all steps
+  int slipping_ms = 0;  // in which that was more than a tenth of the set-point and 50 mm/s, of all steps
 };
 
 [[nodiscard]] std::string step_table(const StepFigures& figures);

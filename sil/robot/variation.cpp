@@ -46,7 +46,7 @@ double number_of(std::string_view name, std::string_view text, double least, dou
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value >= least && value <= greatest)) {
     throw std::runtime_error(
-        fmt::format("--vary {}={}: give a number from {} to {}", name, text, least, greatest));
+        fmt::format("{}={}: give a number from {} to {}", name, text, least, greatest));
   }
   return value;
 }
@@ -62,14 +62,14 @@ void set(Variation& variation, std::string_view name, std::string_view value) {
     if (whole.name == name) {
       const double number = number_of(name, value, whole.least, whole.greatest);
       if (number != std::floor(number)) {
-        throw std::runtime_error(fmt::format("--vary {}={}: give a whole number", name, value));
+        throw std::runtime_error(fmt::format("{}={}: give a whole number", name, value));
       }
       variation.*whole.member = static_cast<std::uint32_t>(number);
       return;
     }
   }
   throw std::runtime_error(
-      fmt::format("--vary {}: there is mass, torque, friction, ball_damping (shares: 0.9 is 10 % less), "
+      fmt::format("{}: there is mass, torque, friction, ball_damping (shares: 0.9 is 10 % less), "
                   "vision_noise_mm, vision_latency_ms, command_delay_ms and camera_rate_Hz",
                   name));
 }
@@ -110,11 +110,11 @@ Variation variation_of(const std::string& text) {
     const std::string_view part = rest.substr(0, comma);
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos) {
-      throw std::runtime_error(fmt::format("--vary {}: '{}' is no NAME=VALUE, as mass=0.9", text, part));
+      throw std::runtime_error(fmt::format("{}: '{}' is no NAME=VALUE, as mass=0.9", text, part));
     }
     const std::string_view name = part.substr(0, equals);
     if (!named.insert(name).second) {
-      throw std::runtime_error(fmt::format("--vary {}: {} is named twice", text, name));
+      throw std::runtime_error(fmt::format("{}: {} is named twice", text, name));
     }
     set(variation, name, part.substr(equals + 1));
     if (comma == std::string_view::npos) {

@@ -115,6 +115,23 @@ TEST(E2eRules, FollowsItsRules) {
   }
 }
 
+// As a drive sees them. Of sixteen counts four are missing, and the twelve that are there are enough.
+TEST(E2eRules, CommandsAreBelievedWhileAQuarterIsLostAndTheOneAfterAGapWaits) {
+  E2eMachine<command_window> commands;
+  int counter = 0;
+  for (; counter < 32; ++counter) {
+    commands.take_correct(static_cast<std::uint8_t>(counter % 16), true);
+  }
+  for (; counter < 232; ++counter) {
+    if (counter % 4 == 0) {
+      continue;
+    }
+    EXPECT_EQ(commands.take_correct(static_cast<std::uint8_t>(counter % 16), true), counter % 4 != 1)
+        << counter;
+    EXPECT_EQ(commands.state(), E2eState::valid) << counter;
+  }
+}
+
 TEST(E2eRules, WithoutAFrameThereIsNoState) {
   E2eMachine<fast_window> machine;
   for (int i = 0; i < 20; ++i) {

@@ -188,6 +188,28 @@ TEST(PicturePlausibility, WheelsAgreeWithARobotTenPercentOff) {
   }
 }
 
+// Straight on, as it believes, at 2.5 m/s.
+TEST(PicturePlausibility, WheelsAgreeThoughOneIsTenPercentSmaller) {
+  for (const std::int32_t axle_um : {40'000, 60'000, 140'000, 1'000'000}) {
+    for (const std::int32_t rate_Hz : {10, 12, 15, 20, 30, 100}) {
+      RobotDescription described = forward;
+      described.axle_length_um = axle_um;
+      described.camera_rate_Hz = rate_Hz;
+      const double rolled_um = 2'500'000.0 / rate_Hz * std::max(1.0, std::round(rate_Hz / 20.0));
+      const double turned = 0.1 * rolled_um / axle_um;
+      const double chord_um = 0.95 * rolled_um * std::sin(turned / 2) / (turned / 2);
+      const Picture to{.number = 1,
+                       .robot_um = {static_cast<std::int32_t>(chord_um * std::cos(turned / 2)),
+                                    static_cast<std::int32_t>(chord_um * std::sin(turned / 2))},
+                       .heading = wrap_angle(static_cast<std::int32_t>(turned * 10'430.4)),
+                       .ball_um = {}};
+      EXPECT_TRUE(wheels_agree(profile_of(described), {}, to,
+                               {.travelled_um = static_cast<std::int32_t>(rolled_um), .turned_um = 0}))
+          << axle_um << ' ' << rate_Hz;
+    }
+  }
+}
+
 // A narrow robot and a slow camera: more than a turn between two pictures, of a robot whose wheels are 10 % off.
 TEST(PicturePlausibility, WheelsAgreeHoweverFarTheRobotTurns) {
   RobotDescription described = forward;

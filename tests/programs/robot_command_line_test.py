@@ -64,6 +64,21 @@ class Robot(files_case.FilesCase):
                 pictures.append(picture.read())
         self.assertEqual(*pictures)
 
+    def test_what_cannot_be_drawn_is_told_in_one_line_and_leaves_nothing(self):
+        forward = os.path.join(files_case.ROBOTS, "forward.toml")
+        wrong = self.file("wrong.toml", "body_mass_g = 2.5\n")
+        taken = os.path.join(self.file("taken"), "forward_steps.svg")
+        os.makedirs(taken)
+        for arguments in ((wrong, "-o", self.file("a")), (forward, wrong, "-o", self.file("a")), (forward, "-o", ""),
+                          (forward, "-o", forward), (forward, "-o", "/proc/x"), (forward, "-o", self.file("taken")),
+                          (forward, forward, "-o", self.file("a"))):
+            done = subprocess.run([os.path.join(BIN, "striker-plot-steps"), *arguments], capture_output=True, text=True,
+                                  check=False)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertFalse(os.path.exists(self.file("a")))
+        self.assertEqual(os.listdir(self.file("taken")), ["forward_steps.svg"])
+
     def test_what_is_no_robot_is_refused_in_one_line(self):
         wrong = self.file("wrong.toml", "body_mass_g = 2.5\n")
         for arguments, words in (((), ("subcommand",)), (("check",), ("file",)), (("check", "/none.toml"), ("/none.toml",)),

@@ -50,6 +50,8 @@ TEST(RobotFile, WhatIsWrongIsNamedWithItsPlace) {
       {"body_mass_g = 2.2\n" + sound.substr(sound.find('\n') + 1),
        "line 1: body_mass_g must be a whole number"},
       {sound + "camera_latency_ms = 1\n", "line 9: "},
+      {"body_mass_g = 2_200\nwheel_mass_g = 29" + sound.substr(sound.find("120") + 3),
+       "wheel_mass_g = 29 is too little"},
       {sound + "camera_rate_Hz = 9\n", "line 9: camera_rate_Hz = 9 must be a whole number from 10 to 100"},
       {sound + "camera_rate_Hz = 101\n", "line 9: camera_rate_Hz = 101 must be a whole number"},
       {sound + "camera_rate_Hz = 59.94\n", "line 9: camera_rate_Hz must be a whole number"},

@@ -51,6 +51,25 @@ TEST(StepResponse, IsDeterministicAndStaysWithinTheTopSpeed) {
   };
   EXPECT_EQ(csv(), csv());
   EXPECT_THROW((void)step_response(core::goalkeeper, {}, {.set_point_m_s = 2.5}), std::runtime_error);
+  for (const std::string meaningless :
+       {"vision_noise_mm=5", "camera_rate_Hz=20", "vision_latency_ms=0", "ball_damping=0.9"}) {
+    EXPECT_THROW((void)step_response(core::forward, variation_of(meaningless), {}), std::runtime_error);
+  }
+}
+
+// Of a robot that stands on ice, whose rims are at their set-point at once.
+TEST(StepResponse, ARimThatSpinsIsNoStepFollowed) {
+  const StepFigures seen =
+      figures_with(core::defender, "mass=0.5,torque=1.5,friction=0.1", {.step_ms = 100, .turns = true});
+  EXPECT_EQ(seen.nine_tenths_ms, -1);
+  EXPECT_GT(seen.greatest_slip_mm_s, 1'000.0);
+}
+
+TEST(StepResponse, ASmallStepDoesNotSlip) {
+  for (const double set_point_m_s : {0.011, 0.05, 0.1, 0.14}) {
+    EXPECT_EQ(figures_with(core::forward, "", {.set_point_m_s = set_point_m_s}).slipping_ms, 0)
+        << set_point_m_s;
+  }
 }
 
 }  // namespace

@@ -143,8 +143,8 @@ inline constexpr auto layout<Decision> = Layout<Decision, 5>{
              .length = 7,
              .sender = Node::controller,
              .period_ms = core::decision_period_ms,
-             .comment = "What the Q network chose.",
-             .traffic = on_changes(core::decision_period_ticks - core::decision_window_ticks, 2)},
+             .comment = "What the Q network chose; a provisional choice waits for a late picture.",
+             .traffic = on_changes(core::decision_period_ticks - 2 * core::decision_window_ticks - 1, 2)},
     .signals = {
         {{.name = "number", .field = &Decision::number, .first_bit = 0, .bits = 16, .maximum = 65535},
          {.name = "action", .field = &Decision::action, .first_bit = 16, .bits = 4, .maximum = 15},

@@ -59,18 +59,21 @@ bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& 
          !beyond(from.ball_um, to.ball_um, greatest_ball_speed_mm_s * elapsed_ms + greatest_jump_um);
 }
 
-// On an arc the way goes along the mean heading, and a curved one is shorter than what the wheels rolled. Which way round
-// a robot went that may have turned by half a turn is not seen: then the way is known by its length alone.
+// On an arc the way goes along the mean heading, and a curved one is shorter than what the wheels rolled. One wheel alone that
+// is a tenth larger turns a robot by a tenth of its way. Which way round a robot went that may have turned by half a turn
+// is not seen: then the way is known by its length alone.
 bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to, const Way& rolled) {
+  const auto turn_of = [&robot](std::int32_t rims_um) {
+    return std::clamp(rims_um, -greatest_turned_um, greatest_turned_um) * robot.turn_q12 / 4096;
+  };
   const BinaryAngle turned = wrap_angle(to.heading - from.heading);
-  const std::int32_t rolled_turn =
-      std::clamp(rolled.turned_um, -greatest_turned_um, greatest_turned_um) * robot.turn_q12 / 4096;
-  const std::int32_t turn_slip = slip_angle + magnitude(rolled_turn) / 4;
+  const std::int32_t rolled_turn = turn_of(rolled.turned_um);
+  const std::int32_t way_um = magnitude(rolled.travelled_um);
+  const std::int32_t turn_slip = slip_angle + (magnitude(rolled_turn) + turn_of(way_um) / 2) / 4;
   if (magnitude(wrap_angle(turned - wrap_angle(rolled_turn))) > turn_slip) {
     return false;
   }
   const Vector moved = {to.robot_um.x - from.robot_um.x, to.robot_um.y - from.robot_um.y};
-  const std::int32_t way_um = magnitude(rolled.travelled_um);
   if (magnitude(rolled_turn) + turn_slip > half_turn) {
     return !beyond(moved, {}, slip_um + way_um + way_um / 4);
   }

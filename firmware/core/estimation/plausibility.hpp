@@ -21,7 +21,7 @@ inline constexpr std::int32_t greatest_jump_um = 50'000;  // beyond what the spe
 
 // The camera's numbers against the time. A picture may be earlier or later than its number says by less than a period,
 // and the next one makes up for it. A camera of another rate than described adds up: one that is faster or slower by
-// more than 6 % ends beyond twice that. Sealed: whole words.
+// more than 5.5 % ends beyond twice that. Sealed: whole words.
 class PictureTiming {
  public:
   // So many numbers and ticks after the last picture that was taken.
@@ -38,7 +38,8 @@ class PictureTiming {
 [[nodiscard]] bool is_possible(const RobotProfile& robot, const Picture& from, const Picture& to,
                                std::int32_t pictures);
 
-// The robot moved and turned as its wheels did on this way.
+// The robot moved and turned as its wheels did on this way, which they rolled evenly: of a robot that turned to and fro
+// between two pictures by more than a quarter of a turn the way is not known.
 [[nodiscard]] bool wheels_agree(const RobotProfile& robot, const Picture& from, const Picture& to,
                                 const Way& rolled);
 

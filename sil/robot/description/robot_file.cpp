@@ -97,10 +97,18 @@ RobotDescription read_robot(const std::filesystem::path& file) {
   } catch (const toml::parse_error& error) {
     fail(name, fmt::format("line {}: {}", error.source().begin.line, std::string(error.description())));
   }
+  if (!core::wheels_are_heavy_enough(robot)) {
+    fail(name,
+         fmt::format(
+             "wheel_mass_g = {} is too little for torque_limit_mNm = {} and wheel_radius_um = {}: in the air "
+             "a rim would gain {} mm/s in a ms, and {} at most is told from a broken sensor",
+             robot.wheel_mass_g, robot.torque_limit_mNm, robot.wheel_radius_um,
+             core::free_rim_gain_mm_s(robot), core::greatest_free_rim_gain_mm_s));
+  }
   if (!core::loops_fit(core::profile_of(robot))) {
-    fail(
-        name,
-        "its wheel loops would not fit 32 bits, or have no gain at all: look at mass, radius and torque again");
+    fail(name,
+         "its wheel loops would not fit 32 bits, or have no gain at all: look at body_mass_g, wheel_mass_g, "
+         "wheel_radius_um and torque_limit_mNm again");
   }
   return robot;
 }

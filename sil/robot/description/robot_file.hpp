@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot's description as a file: TOML, whole numbers in the units of core::RobotDescription
-// (firmware/core/robot_profile.hpp), each key one of its members. firmware/robots/ holds AI Soccer's three roles.
+// (firmware/core/robot_profile.hpp), each key one of its members, in decimal and without quotes. firmware/robots/ holds AI
+// Soccer's three roles.
 //
 //   body_mass_g = 2_200             200 to 100,000
-//   wheel_mass_g = 120              each; 1 to 10,000
+//   wheel_mass_g = 120              each; 1 to 10,000, and enough for the torque (firmware/core/robot_ranges.hpp)
 //   wheel_radius_um = 50_000        10,000 to 200,000
 //   axle_length_um = 200_000        between the wheels' centres; 40,000 to 1,000,000
 //   torque_limit_mNm = 600          of each wheel; 10 to 2,000
