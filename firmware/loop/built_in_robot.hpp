@@ -24,8 +24,9 @@ namespace striker::loop {
 static_assert(core::in_range(built_in_description),
               "STRIKER ROBOT: a number is missing or out of range: striker-robot check FILE says which");
 
-static_assert(core::wheels_are_heavy_enough(built_in_description),
-              "STRIKER ROBOT: its wheels are too light for their torque: striker-robot check FILE says how much");
+static_assert(
+    core::wheels_are_heavy_enough(built_in_description),
+    "STRIKER ROBOT: its wheels are too light for their torque: striker-robot check FILE says how much");
 
 inline constexpr core::RobotProfile built_in_robot = core::profile_of(built_in_description);
 

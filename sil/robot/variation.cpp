@@ -45,8 +45,7 @@ double number_of(std::string_view name, std::string_view text, double least, dou
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value >= least && value <= greatest)) {
-    throw std::runtime_error(
-        fmt::format("{}={}: give a number from {} to {}", name, text, least, greatest));
+    throw std::runtime_error(fmt::format("{}={}: give a number from {} to {}", name, text, least, greatest));
   }
   return value;
 }
