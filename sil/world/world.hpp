@@ -16,20 +16,10 @@
 #include <vector>
 
 #include "sil/world/physics_constants.hpp"
+#include "sil/world/pose.hpp"
 #include "sil/world/robot_specs.hpp"
 
 namespace striker::sil {
-
-struct Vec2 {
-  double x = 0.0;
-  double y = 0.0;
-};
-
-struct Pose {
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double heading_rad = 0.0;
-};
 
 struct BallState {
   Vec2 position_m;
