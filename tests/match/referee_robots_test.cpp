@@ -192,6 +192,23 @@ TEST(RefereeRobots, AWayHomeWaitsForTheFirstFrameWithAFreeSpot) {
   EXPECT_TRUE(match.ruling().sent_out[red(0)]);
 }
 
+// Who takes the spot is sent out in the frame in which it would be free.
+TEST(RefereeRobots, WhetherASpotIsFreeIsAskedOfTheFrameForBothColours) {
+  for (const Team team : teams) {
+    const auto at = [team](double x_m) { return team == Team::red ? x_m : -x_m; };
+    PlayedMatch match;
+    match.open_play();
+    match.put(robot_of(opponent_of(team), 2), at(-0.65), at(0.3));
+    match.frame.standing.reset(robot_of(opponent_of(team), 2));
+    match.put(robot_of(team, 3), at(3.6), 0.0);
+    match.run(3000);
+    EXPECT_EQ(match.count(EventKind::sent_out), 1U);
+    EXPECT_EQ(match.count(EventKind::sent_home), 0U);
+    match.step();
+    EXPECT_EQ(match.count(EventKind::sent_home), 1U);
+  }
+}
+
 TEST(RefereeRobots, AGoalkeeperAwayForThreeSecondsGoesHome) {
   PlayedMatch match;
   match.open_play();

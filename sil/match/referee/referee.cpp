@@ -43,6 +43,7 @@ const Ruling& Referee::step(const RefereeFrame& frame) {
   }
   ruling_.sim_ms += frame_ms;
   seen_ = ruling_.half == 1 ? frame : turned(frame);
+  shown_ = positions_of(seen_);
   if (ruling_.state == GameState::pause) {
     wait();
   } else {

@@ -26,7 +26,8 @@
 //   6 keepers  may move, 3 s out of its own penalty area and goal, its home spot free: sent home
 //   7 state    a set piece, by its own limits only, or open play: goal; else out; returns; crowding; deadlock
 // A test that finds a home spot taken waits, and asks again in the next frame. A body that was placed in a frame is
-// where it was placed for the tests that follow.
+// where it was placed for the tests that follow; but whether a home spot is free is asked of the frame as it was
+// shown, so that it matters to neither colour that red's robots are judged first.
 //
 //   set piece   who may move     over after 3 s, or as soon as
 //   kickoff     robot 4          the ball is more than 0.5 m from the centre
@@ -113,7 +114,8 @@ class Referee {
   Ruling ruling_;  // its flags, clocks and state are the referee's own
 
   // In red's frame, as everything below: so no rule knows of halves.
-  RefereeFrame seen_;
+  RefereeFrame seen_;                             // what was placed since: where it was placed
+  std::array<Vec2, robots_in_match> shown_ = {};  // robots, before anything was placed
   Vec2 ball_before_;
   RobotSet last_touch_;
 

@@ -109,10 +109,7 @@ void Referee::place(std::size_t robot, const Pose& own_spot) {
 bool Referee::is_home_free(std::size_t robot) const {
   const Pose home = home_spot(id_of(robot));
   const Vec2 spot = team_of(robot) == Team::red ? Vec2{home.x_m, home.y_m} : turned(Vec2{home.x_m, home.y_m});
-  std::array<Vec2, robots_in_match> others;
-  for (std::size_t other = 0; other < robots_in_match; ++other) {
-    others[other] = {seen_.robots[other].x_m, seen_.robots[other].y_m};
-  }
+  std::array<Vec2, robots_in_match> others = shown_;
   others[robot] = seen_.ball.position_m;  // nobody is in its own way
   return is_free(spot, others, rules_.clearance_m);
 }
