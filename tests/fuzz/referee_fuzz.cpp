@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The referee of a match before which anything happens: bodies jump, fall, touch, are nowhere and at no number at all. What
-// holds after every frame of every match does; the same frames give the same rulings; and a copy goes on as the
+// The referee of a match in which anything happens: bodies jump, fall, touch, are far away and at no number at all.
+// What holds after every frame of every match does; the same frames give the same rulings; a copy goes on as the
 // original does.
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A match as nobody plays it: bodies jump, and stay where they are long enough for every rule's time to come. Draws favour
-// the places and borders that rules ask for.
+// A match as nobody plays it: bodies jump, and stay where they are long enough for every rule's time to come. Draws
+// favour the places and borders that rules ask for.
 #pragma once
 
 #include <cmath>

@@ -21,7 +21,6 @@ void empty_penalty_areas(PlayedMatch& match) {
   ASSERT_EQ(match.count(EventKind::sent_out), 2U);
 }
 
-// T1
 TEST(Referee, AGoalNeedsTheCentreBetweenThePostsAndAStripBesideThemIsDead) {
   PlayedMatch match;
   match.open_play();
@@ -69,7 +68,6 @@ TEST(Referee, AnOwnGoalWasTouchedLastByTheConcedingTeamAlone) {
   EXPECT_EQ(cause({}), Cause::scored);
 }
 
-// T6
 TEST(Referee, AnOutAfterATouchOfBothIsTheAttackersCorner) {
   PlayedMatch match;
   match.open_play();
@@ -83,7 +81,6 @@ TEST(Referee, AnOutAfterATouchOfBothIsTheAttackersCorner) {
   EXPECT_EQ(match.ruling().owner, Team::blue);
 }
 
-// T7
 TEST(Referee, AnOutThatNobodyTouchedIsTheAttackersCorner) {
   PlayedMatch match;
   match.open_play();
@@ -93,6 +90,17 @@ TEST(Referee, AnOutThatNobodyTouchedIsTheAttackersCorner) {
   EXPECT_EQ(match.ruling().state, GameState::corner);
   EXPECT_EQ(match.ruling().owner, Team::red);
   EXPECT_EQ(match.frame.ball.position_m, (Vec2{2.75, -1.5}));
+}
+
+TEST(Referee, AKickoffForgetsTheLastTouch) {
+  PlayedMatch match;
+  match.open_play();
+  match.touch(red(4));
+  ball_at(match, 4.0, 0.0);
+  match.open_play();
+  ball_at(match, 3.95, -1.0);
+  EXPECT_EQ(match.last(EventKind::ball_out).counts, (std::array{0, 0}));
+  EXPECT_EQ(match.last(EventKind::ball_out).team, Team::red);
 }
 
 TEST(Referee, AnOutIsOfTheTeamThatTouchedLess) {
@@ -121,7 +129,6 @@ TEST(Referee, ALaterTouchReplacesTheOneBefore) {
   EXPECT_EQ(match.last(EventKind::ball_out).team, Team::red);
 }
 
-// T3
 TEST(Referee, AFourthDefenderGivesAPenaltyInTheSameFrame) {
   PlayedMatch match;
   match.open_play();
@@ -139,7 +146,6 @@ TEST(Referee, AFourthDefenderGivesAPenaltyInTheSameFrame) {
   EXPECT_EQ(match.ruling().owner, Team::blue);
 }
 
-// T4
 TEST(Referee, DefendersAreCountedBeforeAttackers) {
   PlayedMatch match;
   match.open_play();
@@ -179,7 +185,6 @@ TEST(Referee, WhoIsOutDoesNotCrowd) {
   EXPECT_EQ(match.count(EventKind::crowding), 0U);
 }
 
-// T5
 TEST(Referee, ASlowBallInAnEmptyPenaltyAreaIsAPenaltyAfterFourSeconds) {
   PlayedMatch slow;
   slow.open_play();
@@ -270,7 +275,6 @@ TEST(Referee, ADeadlockInACornerIsACornerKickForEitherTeam) {
   }
 }
 
-// T12
 TEST(Referee, ADroppedBallKeepsItsLastTouch) {
   PlayedMatch match;
   match.open_play();

@@ -35,7 +35,6 @@ TEST(Referee, OpensWithRedsKickoffAndOneSecondToSettle) {
   EXPECT_EQ(match.ruling().clock_ms, 50);
 }
 
-// T2
 TEST(Referee, TheLastFramesGoalDoesNotCount) {
   for (const int goal_ms : {4900, 4950, 5000}) {
     PlayedMatch match(short_halves(5000));
@@ -49,7 +48,6 @@ TEST(Referee, TheLastFramesGoalDoesNotCount) {
   }
 }
 
-// T14
 TEST(Referee, ClockAndDeadTimeAreTheSimulatedTime) {
   PlayedMatch match;
   int frame = 0;

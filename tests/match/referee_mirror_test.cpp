@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// T13: both halves and both colours are judged alike. The same frames are shown in both halves, turned or with the colours
+// Both halves and both colours are judged alike. The same frames are shown in both halves, turned or with the colours
 // swapped, and give the same events, turned or swapped.
 #include <gtest/gtest.h>
 

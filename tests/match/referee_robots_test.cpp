@@ -88,7 +88,6 @@ TEST(RefereeRobots, TheBallTakesASpotToo) {
   EXPECT_FALSE(match.ruling().sent_out[red(1)]);
 }
 
-// T11
 TEST(RefereeRobots, AGoalBringsBackWhoIsOut) {
   PlayedMatch match;
   match.open_play();
@@ -161,7 +160,6 @@ TEST(RefereeRobots, AGoalkeeperInTheOpponentsGoalAreaGoesOutItself) {
   EXPECT_EQ(match.frame.robots[blue(0)], turned(slot(0)));
 }
 
-// T8
 TEST(RefereeRobots, OneFrameOutOfTheGoalAreaStartsItsTimeAnew) {
   PlayedMatch match;
   match.open_play();
@@ -176,7 +174,6 @@ TEST(RefereeRobots, OneFrameOutOfTheGoalAreaStartsItsTimeAnew) {
   EXPECT_EQ(match.count(EventKind::sent_home), 1U);
 }
 
-// T9
 TEST(RefereeRobots, AWayHomeWaitsForTheFirstFrameWithAFreeSpot) {
   PlayedMatch match;
   match.open_play();
@@ -220,6 +217,16 @@ TEST(RefereeRobots, AGoalkeeperAwayForThreeSecondsGoesHome) {
   EXPECT_EQ(match.last(EventKind::sent_home).cause, Cause::keeper_away);
   EXPECT_EQ(match.frame.robots[blue(0)], turned(home_spot(0)));
   EXPECT_TRUE(match.ruling().may_move(blue(0)));
+}
+
+TEST(RefereeRobots, AGoalkeeperThatIsOutIsNotAway) {
+  PlayedMatch match;
+  match.open_play();
+  match.put(blue(0), 3.95, 0.7);
+  match.step();
+  match.run(4950);
+  EXPECT_EQ(match.count(EventKind::sent_home), 0U);
+  EXPECT_TRUE(match.ruling().sent_out[blue(0)]);
 }
 
 TEST(RefereeRobots, AGoalkeeperInItsGoalIsNotAway) {

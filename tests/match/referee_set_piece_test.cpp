@@ -88,7 +88,6 @@ TEST(RefereeSetPiece, AKickoffIsTheKickersUntilTheBallLeavesTheCircle) {
   EXPECT_EQ(match.last(EventKind::set_piece_over).cause, Cause::ball_left);
 }
 
-// T10
 TEST(RefereeSetPiece, AnUntouchedKickoffIsFreeAfterThreeSecondsAndDeadAfterSeven) {
   PlayedMatch match;
   match.run_until_play();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the field that rules ask for, by the centre of a ball or robot. Areas of a goal are in the frame of the team that
-// defends it: its own goal is at -x. Areas of both ends ask for |x| and |y|.
+// The parts of the field that rules ask for, by the centre of a ball or robot. "Own" is in the frame of a robot's or a
+// goal's own team, whose goal is at -x. What is the same at both ends asks for |x| and |y|.
 //
-// Borders belong as the published referee has them (AI World Cup test_world 37312a93): where a test says "beyond", the line
-// itself is not beyond.
+// Sizes and borders are those of the published referee (AI World Cup test_world 37312a93): the line itself is beyond
+// in none of them, and belongs to the penalty area for the ball alone.
 #pragma once
 
 #include <cmath>
@@ -71,8 +71,8 @@ inline constexpr double wall_thickness_m = 0.025;  // a ball is out beyond it
   return keeper.x < -penalty_line_m && std::abs(keeper.y) < half_width_m;
 }
 
-// Where the straight way of a ball from a frame to the next meets the edge of the field (the end lines, the side lines);
-// if it was beyond already, or never was, the point of the field that is nearest to where it is.
+// Where the straight way of a ball from a frame to the next meets the edge of the field (end lines and side lines). If
+// it was beyond already, or comes from nowhere, the point of the field that is nearest to where it is.
 [[nodiscard]] Vec2 exit_point(Vec2 before, Vec2 now);
 
 }  // namespace striker::sil

@@ -107,7 +107,7 @@ struct MatchEvent {
   int clock_ms = 0;               // of the half
   std::array<int, 2> score = {};  // with this event
 
-  // goal: scored. Of a robot's events: the robot's. half_over: kicks off. All others, and not of a drop: has the ball.
+  // goal: scored. Events of a robot: its own. half_over: kicks off. Stops, restarts, set pieces: has the ball.
   std::optional<Team> team;
   std::optional<std::size_t> robot;        // 0 to 9
   std::optional<GameState> set_piece;      // that follows, or began, or is over

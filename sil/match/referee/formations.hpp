@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where everybody stands when play begins: AI Soccer's formations (AI World Cup test_world 37312a93), to the digit. Somebody who
-// wants them a little apart each time moves the bodies, not this table.
+// Where everybody stands when play begins: AI Soccer's formations (AI World Cup test_world 37312a93), to the digit.
+// Somebody who wants them a little apart each time moves the bodies, not this table.
 #pragma once
 
 #include <array>
@@ -44,8 +44,8 @@ struct LineUp {
   Vec2 ball;
 };
 
-// `set_piece` is one. `stopped_ball`, in red's frame, says in which corner a corner kick is: where x or y is 0 it counts as
-// blue's end, and as y < 0.
+// `set_piece` is one. `stopped_ball`, in red's frame, says in which corner a corner kick is: x = 0 counts as blue's
+// end, y = 0 as y < 0.
 [[nodiscard]] LineUp line_up_of(GameState set_piece, Team owner, Vec2 stopped_ball);
 
 // In red's frame: where a ball is dropped after a deadlock. x and y as above.

@@ -41,8 +41,8 @@ struct MatchRules {
 
   bool deadlock = true;  // off in training: a slow ball stays where it is
 
-  // Whoever was sent out during a set piece stays out when it ends. Published: "may not move now" and "was sent out" are one
-  // flag, so that the end of a set piece frees who stands outside, and the next frame sends it out anew for 5 s.
+  // Whoever was sent out during a set piece stays out when it ends. Published: "may not move now" and "was sent out"
+  // are one flag, so that the end of a set piece frees who stands outside, and the next frame sends it out anew.
   bool own_flag_for_sent_out = true;
   // The ball is dropped on the nearest free spot (free_spot.hpp). Published: on its spot, whoever stands there.
   bool drop_on_free_spot = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who gets the ball when play stops (AI World Cup test_world 37312a93). Everything is in red's frame. "Defenders" are
-// the team at whose end it happens: red's is x < 0, and the middle line counts as blue's. In doubt the attackers get it.
+// the team at whose end it happens: red's is x < 0, and the middle line counts as blue's. In doubt the attackers get
+// it.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The referee of an AI Soccer match: a state machine over what a frame of 50 ms shows. It knows no world, no bus and no clock
-// of its own, so that a match, a test, a fuzzer or a log can step it. Same frames, same rulings, to the bit; a copy goes on
-// by itself. A step allocates nothing once a few events have been seen.
+// The referee of an AI Soccer match: a state machine over what a frame of 50 ms shows. It knows no world, no bus and
+// no clock of its own, so that a match, a test, a fuzzer or a log can step it. Same frames, same rulings, to the bit;
+// a copy goes on by itself. A step of a referee that is no copy allocates nothing.
 //
 //   Referee referee(official());
 //   follow(referee.ruling());                 // the opening: all placed for the kickoff
@@ -10,17 +10,17 @@
 //     follow(referee.step(what_is_seen()));   // place what is placed, at rest; log the events
 //   }
 //
-// Every step is one frame of simulated time, in pauses too: there bodies still roll, but the referee only counts. What a
-// player of AI Soccer is told with a frame is the ruling of the frame before.
+// Every step is one frame of simulated time, in pauses too: there bodies still roll, but the referee only counts.
+// What a player of AI Soccer is told with a frame is the ruling of the frame before.
 //
 // A match: opening, settle, first half, pause, ends changed, settle, second half, pause, over. Simulated time is the
-// clock of both halves and, with the published figures: 1 s at the start, 4 s at half-time, 3 s at the end, 4 s a goal and 2 s
-// any other stop.
+// clock of both halves and, with the published figures, 1 s at the start, 4 s at half-time, 3 s at the end, 4 s for a
+// goal and 2 s for any other stop.
 //
 // Order of a frame in play. The first thing that stops play ends it.
 //   1 clock    + 50 ms. A half whose time is up is over before any rule: a ball in the goal by then does not count.
 //   2 touch    if anybody touched the ball, those who did, of both teams, are its last touch
-//   3 fallen   may move, and not seen standing for 3 s: sent out. The time counts to this frame, even if it stands again.
+//   3 fallen   may move, and not seen standing for 3 s before this frame, whether it stands now or not: sent out
 //   4 field    may move, and its centre has left the field: sent out
 //   5 goals    anybody 1 s in the opponent's goal area, its home spot free: sent home, and its goalkeeper is sent out
 //   6 keepers  may move, 3 s out of its own penalty area and goal, its home spot free: sent home
@@ -35,8 +35,8 @@
 //   corner      robot 4          any robot of the owner does
 //   penalty     robot 4          robot 4 does
 //
-// From a stop to play: a pause; then all are placed, whoever was out plays again and the last touch is forgotten; or the
-// ball alone is dropped, and nothing else changes; then it settles, and the clock runs on.
+// From a stop to play: a pause; then all are placed, whoever was out plays again and the last touch is forgotten; or
+// the ball alone is dropped, and nothing else changes; then all settle, and the clock runs on.
 #pragma once
 
 #include <array>

@@ -64,8 +64,8 @@ struct RefereeFrame {
   BallSeen ball;
 };
 
-// A spot, a pose or a frame as somebody at the other end of the field sees it. Headings come out in (-pi, pi] if they went
-// in so.
+// A spot, a pose or a frame as somebody at the other end of the field sees it. Headings come out in (-pi, pi] if they
+// went in so.
 [[nodiscard]] constexpr Vec2 turned(Vec2 spot) {
   return {-spot.x, -spot.y};
 }
