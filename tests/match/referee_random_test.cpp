@@ -33,12 +33,14 @@ void play_at_random(MatchRules rules, std::uint64_t first_seed, int frames, Seen
     RefereeWatch watch(referee);
     RandomFrames random(seed);
     seen.add(referee.ruling());
+    const MatchEvent* const room = referee.ruling().events.data();
     while (referee.ruling().state != GameState::over) {
       const RefereeFrame& frame = random.after(referee.ruling());
       const Ruling& ruling = referee.step(frame);
       const std::string_view broken = watch.watch(frame, ruling);
       ASSERT_EQ(broken, "") << "seed " << seed << ", " << ruling.sim_ms << " ms";
       ASSERT_EQ(RulingDigest::of(ruling), RulingDigest::of(twin.step(frame)));
+      ASSERT_EQ(ruling.events.data(), room) << "a step allocates nothing";
       seen.add(ruling);
     }
   }
