@@ -88,11 +88,11 @@ IntegerAnswer evaluate(const IntegerNetwork& network, std::span<const std::int32
   return answer;
 }
 
-std::vector<LayerBound> bound_layers(const IntegerNetwork& network) {
+std::vector<LayerBound> bound_layers(const IntegerNetwork& network, bool more_follow) {
   std::vector<LayerBound> bounds;
   std::vector<std::int64_t> greatest(network.input_scales.size(), greatest_activation);
   for (std::size_t l = 0; l < network.layers.size(); ++l) {
-    const bool hidden = l + 1 < network.layers.size();
+    const bool hidden = more_follow || l + 1 < network.layers.size();
     bounds.push_back(bound_layer(network.layers[l], hidden, greatest));
     greatest = bounds.back().activations;
   }

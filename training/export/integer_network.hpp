@@ -62,7 +62,8 @@ struct LayerBound {
   [[nodiscard]] bool fits() const { return worst_sum < (std::int64_t{1} << 31); }
 };
 
-// The proof obligation, a layer: sum |w| * max |a| + |bias| + rounding < 2^31, with a as it can be stored.
-[[nodiscard]] std::vector<LayerBound> bound_layers(const IntegerNetwork& network);
+// The proof obligation, a layer: sum |w| * max |a| + |bias| + rounding < 2^31, with a as it can be stored. An output is
+// not rounded; of a network that is not complete yet, `more_follow`, the last layer is none.
+[[nodiscard]] std::vector<LayerBound> bound_layers(const IntegerNetwork& network, bool more_follow = false);
 
 }  // namespace striker::training

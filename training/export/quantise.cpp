@@ -197,7 +197,7 @@ int append_layer(IntegerNetwork& network, const FloatLayer& layer, const Eigen::
       continue;
     }
     network.layers.push_back(*integers);
-    if (bound_layers(network).back().fits()) {
+    if (bound_layers(network, hidden).back().fits()) {
       return exponent;
     }
     network.layers.pop_back();
