@@ -189,6 +189,24 @@ TEST_F(SyncRules, AWrongSyncIsIgnoredAndCounts) {
   }
 }
 
+// Three errors and a good Sync between them weigh 11 of 12, after a restart and after a fault was told: nothing is left over.
+TEST_F(SyncRules, EveryAccountOfErrorsBeginsEmpty) {
+  const auto is_told_after_a_wrong_one = [this] {
+    can::Frame wrong = can::send(can::Sync{.tick = 1}, counter);
+    wrong.data[0] ^= 1U;
+    put(wrong);
+    return turn().has_value();
+  };
+  ASSERT_TRUE(sync(0));
+  for (std::uint32_t round = 1; round <= 2; ++round) {
+    EXPECT_FALSE(is_told_after_a_wrong_one());
+    ASSERT_TRUE(sync(round));
+    EXPECT_FALSE(is_told_after_a_wrong_one());
+    EXPECT_FALSE(is_told_after_a_wrong_one());
+    EXPECT_TRUE(is_told_after_a_wrong_one());
+  }
+}
+
 TEST_F(SyncRules, ThirtyTwoFramesAreKeptAndTheOthersCounted) {
   put_wheels(32);
   auto tick = sync(1);
