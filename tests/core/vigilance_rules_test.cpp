@@ -147,6 +147,12 @@ TEST_F(VigilanceRules, DrivesThatCutAreACauseBeyond20TicksOfDriving) {
   EXPECT_FALSE(sees(Fault::drives_cut));
 }
 
+TEST_F(VigilanceRules, DrivesThatSaidItOnceCutUntilTheySayOtherwise) {
+  pass(1, wheels(true));
+  run(20);
+  EXPECT_TRUE(sees(Fault::drives_cut));
+}
+
 TEST_F(VigilanceRules, DrivesThatNeverSaidSoDoNotCut) {
   run(30);
   EXPECT_FALSE(sees(Fault::drives_cut));
@@ -212,6 +218,8 @@ TEST_F(VigilanceRules, TwoMismatchesInARowAreACause) {
   EXPECT_TRUE(vigilance.vision_is_fresh());
   vigilance.forget_pictures();
   EXPECT_FALSE(sees(Fault::motion_mismatch));
+  vigilance.see_picture(PictureResult::mismatched, tick, tick);
+  EXPECT_FALSE(sees(Fault::motion_mismatch)) << "the ones before are forgotten";
 }
 
 TEST_F(VigilanceRules, ImpossibleWheelsAreACauseInTheirTick) {
@@ -221,6 +229,16 @@ TEST_F(VigilanceRules, ImpossibleWheelsAreACauseInTheirTick) {
   EXPECT_FALSE(has(vigilance.causes(false), Fault::wheels_implausible));
   pass(1);
   EXPECT_FALSE(sees(Fault::wheels_implausible));
+}
+
+TEST_F(VigilanceRules, SevenWrongFramesOfOperatorsAtOnceAreNoCause) {
+  active = false;
+  for (int i = 0; i < 7; ++i) {
+    pass(0, wrong_operator());
+  }
+  EXPECT_FALSE(sees(Fault::operator_invalid));
+  pass(0, wrong_operator());
+  EXPECT_TRUE(sees(Fault::operator_invalid));
 }
 
 TEST_F(VigilanceRules, EightWrongFramesOfOperatorsIn16TicksAreACause) {
