@@ -89,6 +89,13 @@ TEST(Consent, ChallengesComeFromTheSeedAsTheHeaderSays) {
   }
 }
 
+// 634785765 * 1664525 + 1013904223 is 0 in 32 bits, and 0 stays 0 when it is mixed.
+TEST(Consent, TheOneChallengeThatWouldBeNoneIsOne) {
+  Consent consent(634'785'765);
+  static_cast<void>(consent.step(0, ask(Order::arm)));
+  EXPECT_EQ(consent.opened_at(0).challenge, 1U);
+}
+
 TEST(Consent, ChallengesDoNotRepeatSoon) {
   Consent consent(3);
   std::set<std::uint32_t> seen;
