@@ -68,6 +68,14 @@ TEST(Supervisor, OnlyAnArmRequestWithFreshInputsLeadsToActive) {
   });
 }
 
+// Whoever leaves something of the conditions out gets the side on which nothing moves.
+TEST(Supervisor, WhatIsNotSaidIsNotGranted) {
+  constexpr Conditions silent;
+  EXPECT_FALSE(silent.granted.arm || silent.granted.disarm || silent.granted.clear);
+  EXPECT_FALSE(silent.vision_fresh || silent.vision_ready || silent.wheels_fresh);
+  EXPECT_EQ(silent.self_test, SelfTest::running);
+}
+
 TEST(Supervisor, TheFirstFaultIsKeptUntilItIsCleared) {
   for_every_step([](const Supervisor& now, const Conditions& c, const Supervisor& next) {
     if (now.state == State::fault && !c.granted.clear) {
