@@ -13,11 +13,11 @@ template <typename ActionOf>
 FoundSequence played(const LineDrive& drive, const BallTrack& track, const ActionOf& action_of) {
   FoundSequence found;
   LineState robot;
-  for (int step = 0; step < task_steps; ++step) {
+  for (int step = 0; track.begun + step < task_steps; ++step) {
     const int decision = step / steps_per_decision;
     const auto action = static_cast<std::uint8_t>(action_of(decision));
     if (track.depth_m(step, robot.position_m) >= 0.0) {
-      found.contact_step = step;
+      found.contact_step = track.begun + step;
       found.reward = contact_reward(track, step, robot);
       std::fill(found.actions.begin() + decision, found.actions.end(), action);
       break;
@@ -64,7 +64,7 @@ CeilingSearch::Needs CeilingSearch::needs(int decision, double to_beat) const {
     }
     const double angle_at_most =
         official.angle_reward * track_.reach_m[n] / std::hypot(track_.reach_m[n], track_.y_m[n]);
-    const int waited = step / steps_per_decision;
+    const int waited = track_.decisions_waited(step);
     const double speed_m_s =
         (to_beat - official.waiting_reward * waited - angle_at_most) / official.speed_reward_s_m;
     if (speed_m_s > drive_.top_speed_m_s) {
@@ -98,7 +98,7 @@ void CeilingSearch::record(FoundSequence& found, Contact& contact, double reward
                            const Contact& here) const {
   if (reward > found.reward) {
     found.reward = reward;
-    found.contact_step = step;
+    found.contact_step = track_.begun + step;
     contact = here;
   }
 }
@@ -163,7 +163,9 @@ void CeilingSearch::trace(FoundSequence& found, const Contact& contact) const {
 }
 
 Ceiling CeilingSearch::search(const sil::KickStart& start) {
-  track_ = ball_track(start);
+  // A robot whose commands are late stands until its first one acts, and does then what the others do at once: the ball
+  // is too far away to touch it before.
+  track_ = ball_track(start, described_delays(reachable_->grid().robot).command_steps);
   ceiling_ = {.best = first_guess(drive_, track_, 0.0), .safe = first_guess(drive_, track_, safe_margin_m)};
   best_ = {};
   safe_ = {};

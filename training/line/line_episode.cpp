@@ -31,23 +31,24 @@ struct Picture {
 };
 using Pictures = std::array<Picture, sil::kick_decisions + frames_before>;
 
-Pictures pictures_of(const sil::KickStart& start, double kept, double noise_m, sil::Random& random) {
+// Each is `latency_steps` old when its decision is made.
+Pictures pictures_of(const sil::KickStart& start, double kept, double noise_m, int latency_steps,
+                     sil::Random& random) {
   Pictures pictures;
   sil::BallState ball = start.ball;
+  int step = 0;  // of `ball`
   for (int frame = 0; frame < static_cast<int>(pictures.size()); ++frame) {
-    const int ahead = frames_before - frame;
-    const sil::BallState seen = ahead > 0 ? sil::ball_before(start, ahead * sil::decision_period_s) : ball;
+    const int taken = (frame - frames_before) * steps_per_decision - latency_steps;
+    for (; step < taken; ++step) {
+      roll_on(ball, kept);
+    }
+    const sil::BallState seen = taken < 0 ? sil::ball_before(start, -taken * physics_step_s) : ball;
     Picture& picture = pictures[static_cast<std::size_t>(frame)];
     picture = {.ball_m = seen.position_m, .robot_m = {}, .true_velocity_m_s = seen.velocity_m_s};
     if (noise_m > 0.0) {
       picture.robot_m = {noise_m * sil::normal(random), noise_m * sil::normal(random)};
       picture.ball_m.x += noise_m * sil::normal(random);
       picture.ball_m.y += noise_m * sil::normal(random);
-    }
-    for (int i = 0; ahead <= 0 && i < steps_per_decision; ++i) {
-      auto& [position, velocity] = ball;
-      position = {position.x + physics_step_s * velocity.x, position.y + physics_step_s * velocity.y};
-      velocity = {kept * velocity.x, kept * velocity.y};
     }
   }
   return pictures;
@@ -85,7 +86,10 @@ std::string LineKick::unfit(const TaskConfig& task) {
 }
 
 LineKick::LineKick(const TaskConfig& task)
-    : task_(task), top_speed_m_s_(line_drive(task.robot).top_speed_m_s) {
+    : task_(task),
+      top_speed_m_s_(line_drive(task.robot).top_speed_m_s),
+      described_gain_limit_m_s_(line_drive(task.robot).gain_limit_m_s),
+      delays_(described_delays(task.robot)) {
   if (const std::string why = unfit(task); !why.empty()) {
     throw std::invalid_argument("LineKick: " + why);
   }
@@ -103,12 +107,13 @@ LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number, const Condi
   const sil::KickStart start = sil::draw_kick(seed, number, task_.pose, task_.rules);
   LineEpisode episode{.track = ball_track(start.ball, task_steps, ball_kept(conditions)),
                       .gain_limit_m_s = gain_limit_m_s(task_.robot, conditions),
-                      .command_delay_steps = conditions.command_delay_steps,
+                      .command_delay_steps = delays_.command_steps + conditions.command_delay_steps,
                       .vision_late_frames = conditions.vision_late_frames,
                       .features = {}};
   episode.features.resize(static_cast<Eigen::Index>(task_.inputs.size()), sil::kick_decisions);
   sil::Random random(seed, number, sil::random_stream::vision_noise);
-  const Pictures pictures = pictures_of(start, ball_kept(conditions), conditions.vision_noise_m, random);
+  const Pictures pictures =
+      pictures_of(start, ball_kept(conditions), conditions.vision_noise_m, delays_.picture_steps, random);
   // A camera that errs or lags knows no true velocity.
   const bool estimated = task_.velocities == Velocities::estimated || conditions.vision_noise_m > 0.0 ||
                          conditions.vision_late_frames > 0;
@@ -124,6 +129,9 @@ LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number, const Condi
                         .velocity_m_s = estimated
                                             ? estimated_velocity_m_s(seen.ball_m, pictures[frame - 1].ball_m)
                                             : seen.true_velocity_m_s};
+    for (int i = 0; i < delays_.picture_steps + delays_.command_steps; ++i) {
+      roll_on(state.field.ball);
+    }
     state.rcs = rcs_state(state.field, task_.equations);
     decision == 0 ? history.begin(state) : history.add(state);
     const bool mirror = task_.one_sided && state.rcs.ball_y_m < 0.0;
@@ -137,8 +145,9 @@ LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number, const Condi
 void LineKick::look(const LineEpisode& episode, const LineRobot& robot,
                     Eigen::Ref<Eigen::VectorXf> features) const {
   features = episode.features.col(robot.decision);
-  const auto then = [&robot](int ago) -> const LineState& {
-    return ago == 0 ? robot.now : robot.before[static_cast<std::size_t>(ago - 1)];
+  const LineState led = led_through_delay(robot);
+  const auto then = [&](int ago) -> const LineState& {
+    return ago == 0 ? led : robot.before[static_cast<std::size_t>(ago - 1)];
   };
   for (const auto& [row, input] : moving_) {
     const auto [element, ago] = input;
@@ -151,10 +160,19 @@ void LineKick::look(const LineEpisode& episode, const LineRobot& robot,
   }
 }
 
+// As the controller does, which knows its description and what it has ordered.
+LineState LineKick::led_through_delay(const LineRobot& robot) const {
+  LineState led = robot.now;
+  for (int i = 0; i < delays_.command_steps; ++i) {
+    advance(led, robot.set_point_m_s, described_gain_limit_m_s_);
+  }
+  return led;
+}
+
 void LineKick::step(const LineEpisode& episode, LineRobot& robot, int action) const {
   std::shift_right(robot.before.begin(), robot.before.end(), 1);
-  robot.before.front() = robot.now;
-  const double new_set_point_m_s = set_point_m_s(action);
+  robot.before.front() = led_through_delay(robot);
+  const std::array set_points_m_s = {robot.last_set_point_m_s, robot.set_point_m_s, set_point_m_s(action)};
   const int first = robot.decision * steps_per_decision;
   for (int i = 0; i < steps_per_decision; ++i) {
     if (episode.track.depth_m(first + i, robot.now.position_m) >= 0.0) {
@@ -162,10 +180,13 @@ void LineKick::step(const LineEpisode& episode, LineRobot& robot, int action) co
       robot.reward = contact_reward(episode.track, first + i, robot.now);
       return;
     }
-    advance(robot.now, i < episode.command_delay_steps ? robot.set_point_m_s : new_set_point_m_s,
+    const int decisions_late =
+        (episode.command_delay_steps - i + steps_per_decision - 1) / steps_per_decision;
+    advance(robot.now, set_points_m_s[static_cast<std::size_t>(2 - std::max(decisions_late, 0))],
             episode.gain_limit_m_s);
   }
-  robot.set_point_m_s = new_set_point_m_s;
+  robot.last_set_point_m_s = robot.set_point_m_s;
+  robot.set_point_m_s = set_points_m_s.back();
   ++robot.decision;
   if (robot.decision * steps_per_decision >= episode.track.end) {
     robot.over = true;

@@ -41,9 +41,10 @@ struct LineEpisode {
 // Where one play of an episode has come to: a value, so that a play can be branched.
 struct LineRobot {
   LineState now;
-  // One decision ago, two, ...; one more than a network may read, as its picture may be late.
+  // What was seen one decision ago, two, ...; one more than a network may read, as its picture may be late.
   std::array<LineState, greatest_look_back + 1> before{};
-  double set_point_m_s = 0.0;  // the last decision's
+  double set_point_m_s = 0.0;       // the last decision's ...
+  double last_set_point_m_s = 0.0;  // ... and the one's before
   int decision = 0;
   bool over = false;     // the contact, or no contact is possible any more
   bool contact = false;  // over by a contact
@@ -83,9 +84,12 @@ class LineKick {
   };
 
   [[nodiscard]] double contact_reward(const BallTrack& track, int step, const LineState& robot) const;
+  [[nodiscard]] LineState led_through_delay(const LineRobot& robot) const;
 
   TaskConfig task_;
   double top_speed_m_s_;
+  double described_gain_limit_m_s_;
+  DescribedDelays delays_;
   std::vector<double> set_points_m_s_;  // an action each, both wheels alike
   std::vector<MovingInput> moving_;
 };

@@ -57,33 +57,40 @@ LineDrive line_drive(const core::RobotDescription& robot) {
           .set_points_m_s = {top_m_s, 0.0, -top_m_s}};
 }
 
-BallTrack ball_track(const sil::BallState& ball, int steps, double kept) {
+BallTrack ball_track(sil::BallState ball, int steps, double kept) {
   BallTrack track;
-  auto [position, velocity] = ball;
   track.first = steps;
+  std::fill(track.x_m.begin() + steps, track.x_m.end(), 0.0);
+  std::fill(track.y_m.begin() + steps, track.y_m.end(), 0.0);
+  std::fill(track.reach_m.begin() + steps, track.reach_m.end(), -1.0);
   for (int i = 0; i < steps; ++i) {
     const auto n = static_cast<std::size_t>(i);
-    track.x_m[n] = position.x;
-    track.y_m[n] = position.y;
-    track.reach_m[n] = reach_m(position.y);
+    track.x_m[n] = ball.position_m.x;
+    track.y_m[n] = ball.position_m.y;
+    track.reach_m[n] = reach_m(ball.position_m.y);
     if (track.reach_m[n] >= 0.0) {
       track.first = std::min(track.first, i);
       track.end = i + 1;
     }
-    position = {position.x + physics_step_s * velocity.x, position.y + physics_step_s * velocity.y};
-    velocity = {kept * velocity.x, kept * velocity.y};
+    roll_on(ball, kept);
   }
   track.first = std::min(track.first, track.end);
   return track;
 }
 
-BallTrack ball_track(const sil::KickStart& start) {
+BallTrack ball_track(const sil::KickStart& start, int begun) {
   const double c = std::cos(start.robot.heading_rad);
   const double s = std::sin(start.robot.heading_rad);
   const auto in_frame = [&](sil::Vec2 a) { return sil::Vec2{c * a.x + s * a.y, c * a.y - s * a.x}; };
   const auto& [position, velocity] = start.ball;
-  return ball_track({.position_m = in_frame({position.x - start.robot.x_m, position.y - start.robot.y_m}),
-                     .velocity_m_s = in_frame(velocity)});
+  sil::BallState ball = {.position_m = in_frame({position.x - start.robot.x_m, position.y - start.robot.y_m}),
+                         .velocity_m_s = in_frame(velocity)};
+  for (int step = 0; step < begun; ++step) {
+    roll_on(ball);
+  }
+  BallTrack track = ball_track(ball, task_steps - begun);
+  track.begun = begun;
+  return track;
 }
 
 PlanValue best_plan(const LineDrive& drive, const BallTrack& track, const LineState& robot, int decisions,

@@ -64,6 +64,10 @@ struct BallTrack {
   // Steps outside [first, end) have no reach. None: first = end.
   int first = 0;
   int end = 0;
+  int begun = 0;  // physics steps of the episode before the track's first
+
+  // Before this step of the track.
+  [[nodiscard]] int decisions_waited(int step) const { return (begun + step) / steps_per_decision; }
 
   // How far inside the contact the robot is, along its line. Below 0: no contact.
   [[nodiscard]] double depth_m(int step, double position_m) const {
@@ -74,15 +78,16 @@ struct BallTrack {
 
 // `ball` in the robot's frame, now; only `steps` physics steps are left, in each of which it keeps the share `kept` of
 // its velocity.
-[[nodiscard]] BallTrack ball_track(const sil::BallState& ball, int steps = task_steps,
+[[nodiscard]] BallTrack ball_track(sil::BallState ball, int steps = task_steps,
                                    double kept = sil::kept_in_10_ms);
-[[nodiscard]] BallTrack ball_track(const sil::KickStart& start);
+// From this physics step of the episode on.
+[[nodiscard]] BallTrack ball_track(const sil::KickStart& start, int begun = 0);
 
 // What the contact pays that is found before this step, with the decisions waited from step 0 on.
 [[nodiscard]] inline double contact_reward(const BallTrack& track, int step, const LineState& robot) {
   const auto n = static_cast<std::size_t>(step);
   const double ahead_m = track.x_m[n] - robot.position_m;
-  const int waited = step / steps_per_decision;
+  const int waited = track.decisions_waited(step);
   return official.waiting_reward * waited +
          official.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) +
          official.speed_reward_s_m * robot.speed_m_s;

@@ -2,7 +2,7 @@
 // striker-robustness: what a network makes of robots, balls and cameras that nobody described to it.
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -32,20 +32,42 @@ struct Options {
   std::filesystem::path json;
 };
 
+struct Row {
+  std::vector<std::string> differs;  // from the task's robot, ball and camera: nobody told the network
+  // What the description says, and the controller leads through.
+  int command_delay_ms = 0;
+  int camera_latency_ms = 0;
+
+  [[nodiscard]] std::string name() const {
+    std::string name = differs.empty() ? "" : differs.front();
+    name += command_delay_ms != 0 ? fmt::format("described command_delay_ms={}", command_delay_ms) : "";
+    name += camera_latency_ms != 0 ? fmt::format("described camera_latency_ms={}", camera_latency_ms) : "";
+    return name.empty() ? "nominal" : name;
+  }
+};
+
 // One thing at a time, by what a careful owner gets wrong; the last rows are far off.
-const std::array<std::vector<std::string>, 13> rows = {{{"mass=0"},
-                                                        {"mass=-0.3"},
-                                                        {"mass=0.3"},
-                                                        {"torque=-0.3"},
-                                                        {"torque=0.3"},
-                                                        {"ball_damping=-0.5"},
-                                                        {"ball_damping=0.5"},
-                                                        {"command_delay_ms=20"},
-                                                        {"vision_noise_mm=2"},
-                                                        {"vision_noise_mm=5"},
-                                                        {"friction=-0.8"},
-                                                        {"command_delay_ms=50"},
-                                                        {"vision_late_ms=50"}}};
+std::vector<Row> all_rows() {
+  std::vector<Row> rows = {{}};
+  for (const char* differs : {"mass=-0.3", "mass=0.3", "torque=-0.3", "torque=0.3", "ball_damping=-0.5",
+                              "ball_damping=0.5", "vision_noise_mm=2", "vision_noise_mm=5"}) {
+    rows.push_back({.differs = {differs}});
+  }
+  rows.push_back({.command_delay_ms = 20});
+  rows.push_back({.command_delay_ms = 50});
+  rows.push_back({.camera_latency_ms = 50});
+  for (const char* differs :
+       {"command_delay_ms=20", "friction=-0.8", "command_delay_ms=50", "vision_late_ms=50"}) {
+    rows.push_back({.differs = {differs}});
+  }
+  return rows;
+}
+
+core::RobotDescription described(core::RobotDescription robot, const Row& row) {
+  robot.command_delay_ms = std::max(robot.command_delay_ms, row.command_delay_ms);
+  robot.camera_latency_ms = std::max(robot.camera_latency_ms, row.camera_latency_ms);
+  return robot;
+}
 
 // Of a whole random robot: every one of them is drawn, evenly.
 constexpr RandomiseConfig ranges = {.share = 1.0,
@@ -79,22 +101,26 @@ int play_all(const Options& options) {
   if (const std::string why = LineKick::unfit(task); !why.empty()) {
     throw std::runtime_error("the model's task cannot be played on a line: " + why);
   }
-  const LineKick kick(task);
+  const std::vector<Row> rows = all_rows();
   host::ProgressLine line("robot", static_cast<int>(rows.size()) + options.robots);
   nlohmann::ordered_json report = {{"policy", model_identity(model.parameters)}, {"seed", options.seed}};
   int played = 0;
-  std::string table = fmt::format("{:<20}  network  planner  share %\n", "robot");
-  for (const std::vector<std::string>& row : rows) {
-    const RobotScore score = score_on(conditions_of(row), kick, model.parameters,
+  std::string table = fmt::format("{:<33}  network  planner  share %\n", "robot");
+  for (const Row& row : rows) {
+    TaskConfig played_task = task;
+    played_task.robot = described(task.robot, row);
+    const RobotScore score = score_on(conditions_of(row.differs), LineKick(played_task), model.parameters,
                                       {.seed = options.seed, .first = 0, .episodes = options.episodes});
-    table +=
-        fmt::format("{:<20}  {:7.3f}  {:7.3f}  {:7.1f}\n", row.front() == "mass=0" ? "nominal" : row.front(),
-                    score.network, score.planner, 100.0 * score.share());
+    table += fmt::format("{:<33}  {:7.3f}  {:7.3f}  {:7.1f}\n", row.name(), score.network, score.planner,
+                         100.0 * score.share());
     report["rows"].push_back(json_of(score));
+    report["rows"].back()["described_command_delay_ms"] = played_task.robot.command_delay_ms;
+    report["rows"].back()["described_camera_latency_ms"] = played_task.robot.camera_latency_ms;
     if (line.due(++played)) {
-      line.show(played, row.front());
+      line.show(played, row.name());
     }
   }
+  const LineKick kick(task);
   std::vector<double> shares;
   for (int robot = 0; robot < options.robots; ++robot) {
     sil::Random random(options.seed, static_cast<std::uint64_t>(robot), sil::random_stream::conditions);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "training/task/kick_environment.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "firmware/policy/policy.hpp"
@@ -25,15 +26,25 @@ std::variant<sil::PlanarWorld, sil::World> make_world(const TaskConfig& task) {
 KickEnvironment::KickEnvironment(const TaskConfig& task)
     : config_(task),
       world_(make_world(task)),
+      model_(sil::planar_model(sil::spec_of(task.robot))),
       torque_limit_Nm_(sil::spec_of(task.robot).max_wheel_torque_Nm),
+      delays_(described_delays(task.robot)),
       episode_(task.rules),
       dummies_(0, 0, sil::random_stream::dummies),
       features_(task.inputs.size()) {}
 
 void KickEnvironment::reset(std::uint64_t seed, std::uint64_t episode) {
   const sil::KickStart start = sil::draw_kick(seed, episode, config_.pose, config_.rules);
-  std::visit([&](auto& world) { episode_.begin(world, start); }, world_);
-  last_ball_m_ = sil::ball_before(start, sil::decision_period_s).position_m;
+  std::visit(
+      [&](auto& world) {
+        episode_.begin(world, start);
+        balls_.front() = world.ball();
+      },
+      world_);
+  for (std::size_t steps = 1; steps < balls_.size(); ++steps) {
+    balls_[steps] = sil::ball_before(start, static_cast<double>(steps) * physics_step_s);
+  }
+  set_point_ = {};
   dummies_ = sil::Random(seed, episode, sil::random_stream::dummies);
   decisions_ = 0;
   history_.begin(observed());
@@ -41,7 +52,6 @@ void KickEnvironment::reset(std::uint64_t seed, std::uint64_t episode) {
 }
 
 StepResult KickEnvironment::step(int action) {
-  last_ball_m_ = history_.ago(0).field.ball.position_m;
   const bool before = success();
   const SetPoint& set_point = config_.actions[static_cast<std::size_t>(action)];
   drive(in_mirror() ? mirrored(set_point) : set_point, steps_per_decision);
@@ -65,16 +75,53 @@ void KickEnvironment::finish() {
 }
 
 void KickEnvironment::drive(const SetPoint& set_point, int steps) {
+  turn_wheels(delays_.command_steps > 0 ? set_point_ : set_point);
+  for (int i = 0; i < steps; ++i) {
+    if (i > 0 && i == delays_.command_steps) {
+      turn_wheels(set_point);
+    }
+    std::visit(
+        [&](auto& world) {
+          episode_.step(world);
+          remember_ball(world.ball());
+        },
+        world_);
+  }
+  set_point_ = set_point;
+  simulated_s_ += physics_step_s * steps;
+}
+
+void KickEnvironment::turn_wheels(const SetPoint& set_point) {
   std::visit(
       [&](auto& world) {
         world.servo_wheel(0, sil::Wheel::left, set_point.left_m_s, torque_limit_Nm_);
         world.servo_wheel(0, sil::Wheel::right, set_point.right_m_s, torque_limit_Nm_);
-        for (int i = 0; i < steps; ++i) {
-          episode_.step(world);
-        }
       },
       world_);
-  simulated_s_ += physics_step_s * steps;
+}
+
+void KickEnvironment::remember_ball(const sil::BallState& ball) {
+  std::shift_right(balls_.begin(), balls_.end(), 1);
+  balls_.front() = ball;
+}
+
+// To where the next decision will begin to act.
+void KickEnvironment::lead(Observation& seen) const {
+  for (int i = 0; i < delays_.picture_steps + delays_.command_steps; ++i) {
+    roll_on(seen.ball);
+  }
+  const double c = std::cos(seen.robot.heading_rad);
+  const double s = std::sin(seen.robot.heading_rad);
+  const sil::WheelServo both = {.rim_speed_m_s = 0.5 * (set_point_.left_m_s + set_point_.right_m_s),
+                                .torque_ceiling_Nm = torque_limit_Nm_};
+  for (int i = 0; i < delays_.command_steps; ++i) {
+    const sil::Vec2 velocity_m_s = seen.robot_velocity_m_s;
+    const double speed_m_s =
+        sil::straight_speed_m_s(c * velocity_m_s.x + s * velocity_m_s.y, both, physics_step_s, model_);
+    seen.robot.x_m += physics_step_s * speed_m_s * c;
+    seen.robot.y_m += physics_step_s * speed_m_s * s;
+    seen.robot_velocity_m_s = {sil::kept_in_10_ms * speed_m_s * c, sil::kept_in_10_ms * speed_m_s * s};
+  }
 }
 
 DecisionState KickEnvironment::observed() const {
@@ -85,17 +132,19 @@ DecisionState KickEnvironment::observed() const {
         Observation& seen = now.field;
         seen = {.robot = world.robot_pose(0),
                 .robot_velocity_m_s = world.robot_velocity_m_s(0),
-                .ball = world.ball()};
+                .ball = ball_before(delays_.picture_steps)};
         if (config_.velocities == Velocities::estimated) {
           const double speed_m_s =
               0.5 * (world.rim_speed_m_s(0, sil::Wheel::left) + world.rim_speed_m_s(0, sil::Wheel::right));
           seen.robot_velocity_m_s = {speed_m_s * std::cos(seen.robot.heading_rad),
                                      speed_m_s * std::sin(seen.robot.heading_rad)};
-          seen.ball.velocity_m_s = {(seen.ball.position_m.x - last_ball_m_.x) / sil::decision_period_s,
-                                    (seen.ball.position_m.y - last_ball_m_.y) / sil::decision_period_s};
+          const sil::Vec2 last_m = ball_before(delays_.picture_steps + steps_per_decision).position_m;
+          seen.ball.velocity_m_s = {(seen.ball.position_m.x - last_m.x) / sil::decision_period_s,
+                                    (seen.ball.position_m.y - last_m.y) / sil::decision_period_s};
         }
       },
       world_);
+  lead(now.field);
   now.rcs = rcs_state(now.field, config_.equations);
   return now;
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // One kick episode after another, as a learner meets them (environment.hpp). The servo plant of the paper:
-// wheels that hold a set-point within a torque ceiling, physics steps of 10 ms, five a decision.
+// wheels that hold a set-point within a torque ceiling. Delays of the task's robot are played, and led through in what
+// the learner sees (described_delays.hpp).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <variant>
 
@@ -10,15 +12,12 @@
 #include "sil/world/planar_world.hpp"
 #include "sil/world/random.hpp"
 #include "sil/world/world.hpp"
+#include "training/task/described_delays.hpp"
 #include "training/task/environment.hpp"
+#include "training/task/physics_step.hpp"
 #include "training/task/task_config.hpp"
 
 namespace striker::training {
-
-inline constexpr int physics_step_ms = 10;
-inline constexpr double physics_step_s = physics_step_ms / 1000.0;
-inline constexpr int steps_per_decision = sil::decision_period_ms / physics_step_ms;
-static_assert(steps_per_decision * physics_step_ms == sil::decision_period_ms);
 
 class KickEnvironment {
  public:
@@ -44,13 +43,23 @@ class KickEnvironment {
  private:
   [[nodiscard]] bool in_mirror() const { return config_.one_sided && state().ball_y_m < 0.0; }
   void drive(const SetPoint& set_point, int steps);
+  void turn_wheels(const SetPoint& set_point);
+  void remember_ball(const sil::BallState& ball);
+  [[nodiscard]] const sil::BallState& ball_before(int steps) const {
+    return balls_[static_cast<std::size_t>(steps)];
+  }
+  void lead(Observation& seen) const;
   [[nodiscard]] DecisionState observed() const;
 
   TaskConfig config_;
   std::variant<sil::PlanarWorld, sil::World> world_;
+  sil::PlanarModel model_;  // of the robot, as described
   double torque_limit_Nm_;  // of each wheel
+  DescribedDelays delays_;
   sil::KickEpisode episode_;
-  sil::Vec2 last_ball_m_;  // one vision frame ago
+  SetPoint set_point_;  // the last decision's
+  // Now, a physics step ago, ...: as old as a picture may be, and the one before it.
+  std::array<sil::BallState, 2 * steps_per_decision + 1> balls_{};
   History history_;
   sil::Random dummies_;
   Features features_;

@@ -51,12 +51,21 @@ TEST(Ceiling, TheFastWorldGivesExactlyWhatWasFound) {
   }
 }
 
-// A robot of 2.5 kg: its worlds, its search and its rivals are the same robot's.
-TEST(Ceiling, AnyRobotGetsWhatWasFound) {
-  core::RobotDescription heavy = core::forward;
-  heavy.body_mass_g = 2500;
-  heavy.top_rim_speed_mm_s = 2000;
-  const LineGrid grid{.robot = heavy};
+class OtherRobots : public testing::TestWithParam<core::RobotDescription> {};
+
+core::RobotDescription heavy(int command_delay_ms) {
+  core::RobotDescription robot = core::forward;
+  robot.body_mass_g = 2500;
+  robot.top_rim_speed_mm_s = 2000;
+  robot.command_delay_ms = command_delay_ms;
+  return robot;
+}
+
+INSTANTIATE_TEST_SUITE_P(Ceiling, OtherRobots, testing::Values(heavy(0), heavy(20), heavy(50)));
+
+// Its worlds, its search and its rivals are the same robot's.
+TEST_P(OtherRobots, GetWhatWasFound) {
+  const LineGrid grid{.robot = GetParam()};
   const CeilingOptions options{.seed = 29, .episodes = 100, .rivals = true, .jobs = 2, .grid = grid};
   const auto episodes = run_ceiling(options, Reachable(grid), [](int) { return true; });
   ASSERT_EQ(episodes.size(), 100U);

@@ -45,6 +45,13 @@ constexpr core::RobotDescription slippery = {.body_mass_g = 2500,
                                              .top_rim_speed_mm_s = 3000,
                                              .tyre_friction_percent = 60};
 
+core::RobotDescription late(int command_delay_ms, int camera_latency_ms) {
+  core::RobotDescription robot = core::forward;
+  robot.command_delay_ms = command_delay_ms;
+  robot.camera_latency_ms = camera_latency_ms;
+  return robot;
+}
+
 class LineKicks : public testing::TestWithParam<TaskConfig> {};
 
 // Random actions, held for a while.
@@ -82,7 +89,42 @@ INSTANTIATE_TEST_SUITE_P(Rollout, LineKicks,
                                          with_other_rules(every_input(Velocities::exact)),
                                          every_input(Velocities::exact, core::goalkeeper),
                                          with_other_rules(every_input(Velocities::estimated, core::defender)),
-                                         every_input(Velocities::estimated, slippery)));
+                                         every_input(Velocities::estimated, slippery),
+                                         every_input(Velocities::exact, late(20, 0)),
+                                         every_input(Velocities::estimated, late(43, 35)),
+                                         every_input(Velocities::exact, late(50, 50))));
+
+// What a late robot sees in a decision is where things are when that decision begins to act: until then all it does is
+// ordered, and the ball rolls on.
+TEST(LineKick, SeesWhereThingsAreWhenItsDecisionActs) {
+  // With 50 ms a whole decision is the last one's.
+  for (const int delay_ms : {0, 50}) {
+    TaskConfig task{.robot = late(delay_ms, 50), .velocities = Velocities::exact};
+    task.inputs = {{.element = Element::ball_x}, {.element = Element::robot_speed}};
+    const LineKick kick(task);
+    std::mt19937 random(6);
+    int compared = 0;
+    for (std::uint64_t number = 0; number < 100; ++number) {
+      const LineEpisode episode = kick.draw(5, number);
+      LineRobot robot;
+      while (!robot.over) {
+        Features seen(2);
+        kick.look(episode, robot, seen);
+        const int step = robot.decision * steps_per_decision + delay_ms / physics_step_ms;
+        const LineState before = robot.now;
+        kick.step(episode, robot, static_cast<int>(random() % 3));
+        if (!robot.over) {
+          const LineState& acts = delay_ms == 0 ? before : robot.now;
+          const double ball_x_m = episode.track.x_m[static_cast<std::size_t>(step)] - acts.position_m;
+          EXPECT_NEAR(seen[0] * position_unit_m, ball_x_m, 1e-3) << number;
+          EXPECT_NEAR(seen[1] * speed_unit_m_s, acts.speed_m_s, 1e-6) << number;
+          ++compared;
+        }
+      }
+    }
+    EXPECT_GT(compared, 1000) << delay_ms;
+  }
+}
 
 // From the start of an episode the plans are those that the ceiling's planner knows.
 TEST(Plans, AreWorthWhatTheCeilingsPlannerSays) {
