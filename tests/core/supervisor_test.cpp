@@ -74,6 +74,9 @@ TEST(Supervisor, WhatIsNotSaidIsNotGranted) {
   EXPECT_FALSE(silent.granted.arm || silent.granted.disarm || silent.granted.clear);
   EXPECT_FALSE(silent.vision_fresh || silent.vision_ready || silent.wheels_fresh);
   EXPECT_EQ(silent.self_test, SelfTest::running);
+  EXPECT_FALSE(silent.emergency_stop);
+  EXPECT_EQ(silent.causes, 0U);
+  EXPECT_EQ(Supervisor{}, (Supervisor{State::boot, Fault::none, 0, 0}));
 }
 
 TEST(Supervisor, TheFirstFaultIsKeptUntilItIsCleared) {

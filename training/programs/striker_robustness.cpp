@@ -53,9 +53,9 @@ std::vector<Row> all_rows() {
                               "ball_damping=0.5", "vision_noise_mm=2", "vision_noise_mm=5"}) {
     rows.push_back({.differs = {differs}});
   }
-  rows.push_back({.command_delay_ms = 20});
-  rows.push_back({.command_delay_ms = 50});
-  rows.push_back({.camera_latency_ms = 50});
+  rows.push_back({.differs = {}, .command_delay_ms = 20});
+  rows.push_back({.differs = {}, .command_delay_ms = 50});
+  rows.push_back({.differs = {}, .camera_latency_ms = 50});
   for (const char* differs :
        {"command_delay_ms=20", "friction=-0.8", "command_delay_ms=50", "vision_late_ms=50"}) {
     rows.push_back({.differs = {differs}});
