@@ -35,6 +35,7 @@
 #include "firmware/core/decision_clock.hpp"
 #include "firmware/core/estimation/command_lead.hpp"
 #include "firmware/core/estimation/estimator.hpp"
+#include "firmware/core/estimation/field_border.hpp"
 #include "firmware/core/estimation/plausibility.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
 #include "firmware/core/pending_torque.hpp"
@@ -276,7 +277,10 @@ class Controller {
     }
     const Estimate seen = led_through_delay(now_.robot, memory.estimator.at(now_.tick, now_.odometry),
                                             pending_.state.speed_change_mm_s(now_.robot));
-    const Decision decision = memory.pilot.decide(relative_state(seen), due);
+    Decision decision = memory.pilot.decide(relative_state(seen), due);
+    if (leaves_field(now_.robot, seen, memory.pilot.set_point())) {
+      memory.pilot.end(decision);
+    }
     now_.set_point = memory.pilot.set_point();
     now_.kick_over = static_cast<std::uint32_t>(decision.over);
     return decision;

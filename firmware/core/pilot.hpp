@@ -9,8 +9,8 @@
 //   const Decision decision = pilot.decide(relative_state(estimator.at(tick, odometry)), DecisionDue::on_picture);
 //   loops.step(robot, pilot.set_point(), measured);
 //
-// A kick has `decisions_a_kick` decisions, as many as it was trained for. After them the wheels are told to stand, until
-// the next arming begins another one.
+// A kick has `decisions_a_kick` decisions, as many as it was trained for, unless it ends before the field's border.
+// After them the wheels are told to stand, until the next arming begins another one.
 //
 // Cost: a decision is one forward pass, whose instruction count does not depend on the input.
 #pragma once
@@ -92,6 +92,7 @@ class Pilot {
   // At arming: the next decision is number 0, and nothing came before it.
   void reset() {
     decisions_ = 0;
+    ended_ = 0;
     history_ = {};
     set_point_ = {};
   }
@@ -109,7 +110,7 @@ class Pilot {
     read_inputs(mirror);
     const auto q = policy::infer<policy>(inputs_);
     action_ = q.action;
-    const bool over = decisions_ >= policy::decisions_a_kick;
+    const bool over = ended_ != 0 || decisions_ >= policy::decisions_a_kick;
     set_point_ = over ? WheelSpeeds{} : set_point_of(q.action, mirror);
     return {.number = decisions_++,
             .action = q.action,
@@ -118,6 +119,13 @@ class Pilot {
             .over = over,
             .best_q_256th = q.sums[q.action] >> output_shift,
             .next_q_256th = runner_up(q) >> output_shift};
+  }
+
+  // The kick is over with this decision.
+  void end(Decision& decision) {
+    ended_ = 1;
+    set_point_ = {};
+    decision.over = true;
   }
 
   // Of the last decision; 0 before the first, and when the kick is over.
@@ -187,6 +195,7 @@ class Pilot {
   std::uint32_t self_tested_ = 0;  // golden vectors that passed
   std::uint32_t decisions_ = 0;    // since the reset
   std::uint32_t action_ = 0;       // a whole word: it is sealed
+  std::uint32_t ended_ = 0;        // another
   WheelSpeeds set_point_;
   Inputs inputs_{};
   std::array<RelativeState, look_back + 1> history_{};  // of the decisions, the newest first

@@ -29,6 +29,9 @@ struct RobotDescription {
   std::int32_t camera_rate_Hz = 20;          // pictures a second: 10 to 100
   std::int32_t tyre_friction_percent = 300;  // Coulomb, between tyre and floor: 300 is a coefficient of 3.0
   std::int32_t command_delay_ms = 0;         // from a command's frame to the torque: 0 to 50
+  // Where a kick ends, from the origin of the camera's coordinates; 0: no border (estimation/field_border.hpp).
+  std::int32_t field_half_length_mm = 0;  // along x
+  std::int32_t field_half_width_mm = 0;   // along y
 
   bool operator==(const RobotDescription&) const = default;
 };
@@ -73,6 +76,8 @@ struct RobotProfile {
   std::int32_t command_delay_ticks = 0;
   std::int32_t pending_gain_q12 = 0;  // what a step of torque on both wheels adds in a tick, in mm/s
   std::int32_t turn_q12 = 0;          // binary angle for a um that the right rim is ahead of the left
+  std::int32_t field_half_length_mm = 0;
+  std::int32_t field_half_width_mm = 0;
 
   bool operator==(const RobotProfile&) const = default;
 };
@@ -120,7 +125,9 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
       .picture_period_us = rounded_ratio(1'000'000, robot.camera_rate_Hz),
       .command_delay_ticks = robot.command_delay_ms,
       .pending_gain_q12 = rounded_ratio(8'192'000'000 * robot.torque_limit_mNm, torque_steps * radius_mass),
-      .turn_q12 = rounded_ratio(4'096 * circle_um_e3, 1'000 * std::int64_t{robot.axle_length_um})};
+      .turn_q12 = rounded_ratio(4'096 * circle_um_e3, 1'000 * std::int64_t{robot.axle_length_um}),
+      .field_half_length_mm = robot.field_half_length_mm,
+      .field_half_width_mm = robot.field_half_width_mm};
 }
 
 // The ball's speed and the robot's are measured over about the time between two decisions, as in training: from a

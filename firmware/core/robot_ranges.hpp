@@ -32,7 +32,9 @@ inline constexpr std::array robot_keys = {
     RobotKey{"camera_latency_ms", &RobotDescription::camera_latency_ms, 0, 50, true},
     RobotKey{"camera_rate_Hz", &RobotDescription::camera_rate_Hz, 10, 100, true},
     RobotKey{"command_delay_ms", &RobotDescription::command_delay_ms, 0, 50, true},
-    RobotKey{"tyre_friction_percent", &RobotDescription::tyre_friction_percent, 10, 1'000, true}};
+    RobotKey{"tyre_friction_percent", &RobotDescription::tyre_friction_percent, 10, 1'000, true},
+    RobotKey{"field_half_length_mm", &RobotDescription::field_half_length_mm, 0, 20'000, true},
+    RobotKey{"field_half_width_mm", &RobotDescription::field_half_width_mm, 0, 20'000, true}};
 
 [[nodiscard]] constexpr bool in_range(const RobotDescription& robot) {
   return std::all_of(robot_keys.begin(), robot_keys.end(), [&](const RobotKey& key) {

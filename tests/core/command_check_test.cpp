@@ -55,6 +55,11 @@ TEST(CommandCheck, EachFigureAloneNeedsACause) {
   }
 }
 
+TEST(CommandCheck, WhatIsNotSaidIsNoCause) {
+  constexpr DriveFacts silent;
+  EXPECT_FALSE(silent.armed || silent.vision_fresh || silent.wheels_fresh);
+}
+
 TEST(CommandCheck, TheLimitsThemselvesPass) {
   const DriveFacts at_overspeed{true, true, true, {robot.overspeed_mm_s, -robot.overspeed_mm_s}};
   const DriveCommand greatest{{robot.torque_limit_mNm, -robot.torque_limit_mNm},

@@ -57,6 +57,28 @@ TEST(VariedRobot, AsDescribedIsTheOfficialRobotToTheByte) {
   ASSERT_NO_FATAL_FAILURE(expect_same(bus_of(""), bus_of("mass=1.0,vision_latency_ms=0,friction=1")));
 }
 
+// AI Soccer's field, on which it may start anywhere, and face outwards. The drives' lag takes some millimetres, a push of
+// the ball others.
+TEST(VariedRobot, NoKickLeavesTheFieldOfTheDescription) {
+  const auto way_outside_m = [](core::RobotDescription told) {
+    InProcessLink link(core::profile_of(told));
+    double farthest_m = -10.0;
+    AtEndOfTick watch([&](const Snapshot& snapshot) {
+      const Pose& pose = snapshot.robots.front().pose;
+      farthest_m = std::max({farthest_m, std::abs(pose.x_m) - 3.9, std::abs(pose.y_m) - 2.325});
+    });
+    KickRig rig(link);
+    rig.play({.seed = 12, .episodes = 60, .pose = PoseMode::anywhere}, {&watch});
+    EXPECT_TRUE(rig.undriven.empty());
+    return farthest_m;
+  };
+  EXPECT_GT(way_outside_m(core::forward), 1.0);
+  core::RobotDescription told = core::forward;
+  told.field_half_length_mm = 3'900;
+  told.field_half_width_mm = 2'325;
+  EXPECT_LT(way_outside_m(told), 0.02);
+}
+
 // The same robot with a late camera: the controller that was told leads its pictures on, one that was not kicks worse
 // but takes nothing for a fault.
 TEST(VariedRobot, ALateCameraCostsLittleWhereItIsDescribed) {
