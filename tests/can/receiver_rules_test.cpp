@@ -126,6 +126,20 @@ TEST_F(ReceiverRules, RenewalsCountInSequenceAndNotWhenTheyAreRepeated) {
   }
 }
 
+// One that comes twice is no sender's, and what follows it is believed after as many in sequence as it takes after any
+// contradiction.
+TEST_F(ReceiverRules, ARepeatedRenewalIsAContradiction) {
+  for (int i = 0; i < 8; ++i) {
+    order(Mode::renew);
+  }
+  const Frame twice = send(ModeCommand{.mode = 3}, mode);
+  EXPECT_TRUE(take({twice}).requests.renew);
+  EXPECT_FALSE(take({twice}).requests.renew);
+  for (std::uint32_t step = 1; step <= slow_window.steps_alone; ++step) {
+    EXPECT_EQ(order(Mode::renew).requests.renew, step >= slow_window.steps_alone) << step;
+  }
+}
+
 TEST_F(ReceiverRules, InvalidPicturesAreToldAndNotTaken) {
   for (const bool robot : {true, false}) {
     begin();
