@@ -139,6 +139,46 @@ TEST(StrikerDrives, OldCommandsAtPowerOnDriveNothing) {
   }
 }
 
+TEST(StrikerDrives, OrdersAreInNewtonMetresAndMetresPerSecond) {
+  Driven driven;
+  driven.drives.take(can::send(can::WheelCommand{.left_torque_mNm = -250,
+                                                 .right_torque_mNm = 1,
+                                                 .left_set_point_2mm_s = 600,
+                                                 .right_set_point_2mm_s = -1},
+                               driven.counter),
+                     100);
+  const WheelOrders& orders = driven.drives.orders();
+  EXPECT_DOUBLE_EQ(orders[0].torque_Nm, -0.25);
+  EXPECT_DOUBLE_EQ(orders[1].torque_Nm, 0.001);
+  EXPECT_DOUBLE_EQ(orders[0].rim_speed_m_s, 1.2);
+  EXPECT_DOUBLE_EQ(orders[1].rim_speed_m_s, -0.002);
+}
+
+TEST(StrikerDrives, AReportIsOneFrameWithBothSpeedsAndTheCut) {
+  Driven driven;
+  EXPECT_EQ(StrikerDrives().ignored(), 0U);
+  for (const std::uint32_t tick : {100U, 120U}) {
+    std::vector<can::Frame> frames;
+    driven.drives.report({.left_m_s = 1.2344, .right_m_s = -0.5}, tick, frames);
+    ASSERT_EQ(frames.size(), 1U);
+    can::WheelState state;
+    ASSERT_EQ(can::receive(frames.front(), state), can::Verdict::accepted);
+    EXPECT_EQ(state.left_mm_s, 1234);
+    EXPECT_EQ(state.right_mm_s, -500);
+    EXPECT_EQ(state.torque_cut, tick == 120 ? 1 : 0);
+  }
+}
+
+// A report looks at the time-out as the torque does: it forgets a command with the tick that cuts, and not before.
+TEST(StrikerDrives, AReportForgetsWithTheCut) {
+  Driven driven;
+  std::vector<can::Frame> frames;
+  driven.drives.report({}, 108, frames);
+  EXPECT_FALSE(driven.drives.cut(108));
+  driven.drives.report({}, 109, frames);
+  EXPECT_TRUE(driven.drives.cut(100)) << "a tick that comes again in 2^32";
+}
+
 TEST(StrikerDrives, NothingComesBackWhenTicksWrap) {
   Driven driven;
   std::vector<can::Frame> frames;

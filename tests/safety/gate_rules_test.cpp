@@ -173,6 +173,15 @@ TEST_F(GateRules, AStopShutsUntilAClearIsConfirmed) {
   EXPECT_FALSE(moves());
 }
 
+// What was blocked in the first moments may be cleared in them: only a stop holds for a time.
+TEST_F(GateRules, AClearWithoutAStopWaitsForNothing) {
+  tick = 1;
+  EXPECT_FALSE(moves());
+  EXPECT_TRUE(gate.has_blocked());
+  confirm(clear);
+  EXPECT_FALSE(gate.has_blocked());
+}
+
 TEST_F(GateRules, AStopAloneBlocksAnArm) {
   feed(13);
   can::SendCounter counter;
