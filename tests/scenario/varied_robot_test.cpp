@@ -68,7 +68,7 @@ TEST(VariedRobot, NoKickLeavesTheFieldOfTheDescription) {
       farthest_m = std::max({farthest_m, std::abs(pose.x_m) - 3.9, std::abs(pose.y_m) - 2.325});
     });
     KickRig rig(link);
-    rig.play({.seed = 12, .episodes = 60, .pose = PoseMode::anywhere}, {&watch});
+    rig.play({.pose = PoseMode::anywhere, .seed = 12, .episodes = 60}, {&watch});
     EXPECT_TRUE(rig.undriven.empty());
     return farthest_m;
   };
