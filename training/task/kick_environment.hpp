@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One kick episode after another, as a learner meets them (environment.hpp). The servo plant of the paper:
-// wheels that hold a set-point within a torque ceiling, physics steps of 10 ms, five a decision.
+// wheels that hold a set-point within a torque ceiling, physics steps of 10 ms, five a decision. The decision of an
+// aimed contact lasts until the ball is measured.
 #pragma once
 
 #include <cstdint>
@@ -44,6 +45,7 @@ class KickEnvironment {
  private:
   [[nodiscard]] bool in_mirror() const { return config_.one_sided && state().ball_y_m < 0.0; }
   void drive(const SetPoint& set_point, int steps);
+  void drive_until_measured(const SetPoint& set_point);
   [[nodiscard]] DecisionState observed() const;
 
   TaskConfig config_;
