@@ -115,6 +115,7 @@ class KickSession {
                    .seed = options.seed,
                    .first_episode = options.first,
                    .episodes = options.episodes,
+                   .reward = options.task == "aimed" ? KickReward::aimed : KickReward::contact,
                    .place = {.robot = varied(spec_of(robot_), variation_),
                              .ball_kept_after_1_s = ball_kept_after_1_s(variation_)},
                    .vision_latency_ticks = variation_.vision_latency_ms.value(),

@@ -25,6 +25,9 @@ void define_episodes(CLI::App& kick, KickOptions& options) {
   kick.add_option("--plant", options.plant, "servo: the paper's motors, 10 ms; drive: torque drives, 1 ms")
       ->check(CLI::IsMember(plant_names()))
       ->capture_default_str();
+  kick.add_option("--task", options.task, "what the contact is paid for: as in kick, or as in aimed")
+      ->check(CLI::IsMember({"kick", "aimed"}))
+      ->capture_default_str();
   kick.add_option("--pose", options.pose, "where the robot stands")
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();

@@ -17,6 +17,7 @@ namespace striker::sil {
 struct KickOptions {
   std::string bus = "inproc";
   std::string plant = "drive";
+  std::string task = "kick";
   std::string pose = "origin";
   std::string robot;
   std::string vary;

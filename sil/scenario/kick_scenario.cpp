@@ -37,7 +37,8 @@ KickScenario::KickScenario(const KickPlan& plan, Seat& seat, std::span<Observer*
       observers_(observers),
       world_(kick_world(seat.ticks_per_step() * tick_s, plan.place)),
       first_decision_tick_(first_decision_tick_of(plan)),
-      arm_tick_(first_decision_tick_ - ticks_back(plan, 1) + 1) {
+      arm_tick_(first_decision_tick_ - ticks_back(plan, 1) + 1),
+      episode_({.reward = plan.reward}) {
   look();
 }
 

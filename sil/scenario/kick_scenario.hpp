@@ -39,6 +39,7 @@ struct KickPlan {
   std::uint64_t seed = 1;
   std::uint64_t first_episode = 0;
   std::uint64_t episodes = 20;
+  KickReward reward = KickReward::contact;
   KickPlace place = {};                    // with another robot or ball than the official ones
   std::uint32_t vision_latency_ticks = 0;  // at most a decision: pictures are taken so much before they come
   // Pictures come in the ticks that reach n / rate, one of them with decision 0.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/task/kick_task.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,9 +18,11 @@ constexpr double pi = std::numbers::pi;
 
 constexpr double ball_distance_m = 2.0;
 
-constexpr double measured_after_s = 0.100;
 constexpr double kick_angle_rad = 15.0 * pi / 180.0;
 constexpr double kick_speed_m_s = 1.0;
+
+constexpr double aimed_reward_s_m = 2.0;
+constexpr double least_aimed_reward = -4.0;
 
 Vec2 along(double direction_rad) {
   return {std::cos(direction_rad), std::sin(direction_rad)};
@@ -81,6 +84,13 @@ KickStart draw_kick(std::uint64_t seed, std::uint64_t episode, PoseMode pose, co
   return start;
 }
 
+double aimed_reward(Vec2 ball_velocity_m_s, double target_heading_rad) {
+  const Vec2 target = along(target_heading_rad);
+  const double along_m_s = dot(ball_velocity_m_s, target);
+  const double across_m_s = target.x * ball_velocity_m_s.y - target.y * ball_velocity_m_s.x;
+  return std::max(least_aimed_reward, aimed_reward_s_m * (along_m_s - std::abs(across_m_s)));
+}
+
 BallState ball_before(const KickStart& start, double ahead_s) {
   const double faster = std::exp(damping_per_s * ahead_s);
   const double way_s = (faster - 1.0) / damping_per_s;
@@ -122,8 +132,10 @@ void KickEpisode::step(W& world) {
   const double theta_rad = wrapped_rad(angle_rad(ball - Vec2{robot.x_m, robot.y_m}) - target_heading_rad_);
   const double v_m_s = dot(robot_velocity, heading);
   contact_due_ = true;
-  contact_reward_ = rules_.angle_reward * std::cos(theta_rad) +
-                    rules_.speed_reward_s_m * (rules_.signed_speed ? v_m_s : std::abs(v_m_s));
+  contact_reward_ = rules_.reward == KickReward::aimed
+                        ? 0.0
+                        : rules_.angle_reward * std::cos(theta_rad) +
+                              rules_.speed_reward_s_m * (rules_.signed_speed ? v_m_s : std::abs(v_m_s));
   if (!outcome_.contact) {
     outcome_.contact = true;
     outcome_.contact_decision = decision_;
@@ -142,6 +154,9 @@ void KickEpisode::measure_ball(Vec2 velocity_m_s) {
   outcome_.ball_angle_rad = wrapped_rad(angle_rad(velocity_m_s) - target_heading_rad_);
   outcome_.kicked = outcome_.front_face && outcome_.ball_speed_m_s > kick_speed_m_s &&
                     std::abs(outcome_.ball_angle_rad) <= kick_angle_rad;
+  if (rules_.reward == KickReward::aimed) {
+    (contact_due_ ? contact_reward_ : outcome_.reward) += aimed_reward(velocity_m_s, target_heading_rad_);
+  }
 }
 
 double KickEpisode::end_decision() {

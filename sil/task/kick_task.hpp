@@ -5,6 +5,9 @@
 // robot and rolls towards a point near the robot; the target lies in the direction of the robot's initial
 // heading, at infinity. Reward (paper, section IV.A): -0.1 for each decision without contact so far; the
 // decision of the contact gets 3 cos(theta_contact) + 3.92 V_contact; 0 after. Without contact: -4.
+//
+// The aimed kick is the same but for what the contact gets: 2 (v_along - |v_across|), not below -4, of the ball's
+// velocity 100 ms after it, along the target's direction and across, while the decision of the contact holds on.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +25,9 @@ inline constexpr double decision_period_s = decision_period_ms / 1000.0;
 
 enum class PoseMode { origin, anywhere };
 
+// What the contact is paid for: where and how fast the robot met the ball (the paper's), or how the ball leaves.
+enum class KickReward { contact, aimed };
+
 // What the paper leaves open, or a user's own task changes. The defaults are the official task.
 struct KickRules {
   double slowest_ball_m_s = 1.0;
@@ -32,7 +38,14 @@ struct KickRules {
   double speed_reward_s_m = 3.92;
   bool signed_speed = true;    // V_contact is negative when the robot drives backward
   bool every_contact = false;  // each decision with a contact is paid, not only the first one's
+  KickReward reward = KickReward::contact;
 };
+
+// From the contact's step to the ball's measurement.
+inline constexpr double measured_after_s = 0.100;
+
+// What the aimed kick pays for the ball's velocity then.
+[[nodiscard]] double aimed_reward(Vec2 ball_velocity_m_s, double target_heading_rad);
 
 struct KickStart {
   Pose robot;
@@ -72,6 +85,8 @@ struct KickOutcome {
 
 // Watches one episode. The caller drives the wheels, and steps the world through `step` only:
 //   begin, then 40 times: (steps of 50 ms in all, end_decision), then steps of 100 ms to see the ball leave.
+// An aimed contact's decision is paid by end_decision if the ball is measured by then, and else the outcome's sum only,
+// when it is: who wants its reward from end_decision makes the decision last so long.
 class KickEpisode {
  public:
   explicit KickEpisode(const KickRules& rules = {}) : rules_(rules) {}

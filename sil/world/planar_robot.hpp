@@ -48,6 +48,7 @@ struct PlanarModel {
   double wheel_inertia_kgm2;  // of the wheels' movement and spin about that axis
   double inertia_kgm2;        // both
   double grip_N;              // of one tyre
+  bool operator==(const PlanarModel&) const = default;
 };
 
 [[nodiscard]] constexpr PlanarModel planar_model(const RobotSpec& spec) {

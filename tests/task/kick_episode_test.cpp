@@ -57,6 +57,39 @@ TEST(KickEpisode, HeadOnAtFullSpeedPaysBothParts) {
   }
 }
 
+// On the bus the decisions go on: the sum has it as soon as the ball is measured.
+TEST(KickEpisode, AnAimedContactIsPaidWhenTheBallIsMeasured) {
+  World world(kick_world(0.010));
+  KickEpisode episode({.reward = KickReward::aimed});
+  episode.begin(world, resting_ball(1.0, 0.02));
+  drive_straight(world, 2.55);
+  double told = 0.0;
+  double waited = 0.0;
+  for (int decision = 0; decision < kick_decisions; ++decision) {
+    const bool before = episode.outcome().contact;
+    for (int step = 0; step < 5; ++step) {
+      episode.step(world);
+    }
+    told += episode.end_decision();
+    waited += before || episode.outcome().contact ? 0.0 : -0.1;
+  }
+  const KickOutcome& outcome = episode.outcome();
+  ASSERT_TRUE(outcome.ball_measured);
+  const double along_m_s = outcome.ball_speed_m_s * std::cos(outcome.ball_angle_rad);
+  const double across_m_s = outcome.ball_speed_m_s * std::sin(outcome.ball_angle_rad);
+  EXPECT_NEAR(told, waited, 1e-12);
+  EXPECT_NEAR(outcome.reward, waited + 2.0 * (along_m_s - std::abs(across_m_s)), 1e-12);
+  EXPECT_GT(outcome.reward, 7.0);
+}
+
+TEST(KickEpisode, WhatAnAimedKickPays) {
+  EXPECT_NEAR(aimed_reward({.x = 4.0, .y = 1.0}, 0.0), 6.0, 1e-12);
+  EXPECT_NEAR(aimed_reward({.x = 4.0, .y = -1.0}, 0.0), 6.0, 1e-12);
+  EXPECT_NEAR(aimed_reward({.x = -1.0, .y = 4.0}, 0.5 * pi), 6.0, 1e-12);
+  EXPECT_NEAR(aimed_reward({.x = -1.0, .y = 0.0}, 0.0), -2.0, 1e-12);
+  EXPECT_EQ(aimed_reward({.x = -3.0, .y = 0.0}, 0.0), -4.0);
+}
+
 TEST(KickEpisode, BackwardContactCostsAndIsNoKick) {
   World world(kick_world(0.010));
   const KickOutcome outcome = play(world, resting_ball(-1.5, 0.0), backward);

@@ -18,7 +18,8 @@ FoundSequence played(const LineDrive& drive, const BallTrack& track, const Actio
     const auto action = static_cast<std::uint8_t>(action_of(decision));
     if (track.depth_m(step, robot.position_m) >= 0.0) {
       found.contact_step = track.begun + step;
-      found.reward = contact_reward(track, step, robot);
+      found.reward = contact_reward(drive, track, step, robot, drive.set_points_m_s[action],
+                                    -std::numeric_limits<double>::infinity());
       std::fill(found.actions.begin() + decision, found.actions.end(), action);
       break;
     }
@@ -47,8 +48,20 @@ FoundSequence first_guess(const LineDrive& drive, const BallTrack& track, double
 
 }  // namespace
 
-CeilingSearch::CeilingSearch(const Reachable& reachable)
-    : reachable_(&reachable), drive_(reachable.drive()), cells_(reachable.grid()) {}
+CeilingSearch::CeilingSearch(const Reachable& reachable, sil::KickReward reward)
+    : reachable_(&reachable), drive_(line_drive(reachable.grid().robot, reward)), cells_(reachable.grid()) {}
+
+// The speed from which on a contact before this step may pay more than `to_beat`.
+double CeilingSearch::least_speed_m_s(int step, double to_beat) const {
+  const auto n = static_cast<std::size_t>(step);
+  if (drive_.reward == sil::KickReward::aimed) {
+    return least_speed_for_m_s(drive_.bodies, to_beat, track_.ball(step), waited_until(track_, step));
+  }
+  const double angle_at_most =
+      official.angle_reward * track_.reach_m[n] / std::hypot(track_.reach_m[n], track_.y_m[n]);
+  const int waited = track_.decisions_waited(step);
+  return (to_beat - official.waiting_reward * waited - angle_at_most) / official.speed_reward_s_m;
+}
 
 // From where, and from what speed on, a contact in any later step can be reached that pays more than
 // `to_beat`.
@@ -62,11 +75,7 @@ CeilingSearch::Needs CeilingSearch::needs(int decision, double to_beat) const {
     if (track_.reach_m[n] < 0.0) {
       continue;
     }
-    const double angle_at_most =
-        official.angle_reward * track_.reach_m[n] / std::hypot(track_.reach_m[n], track_.y_m[n]);
-    const int waited = track_.decisions_waited(step);
-    const double speed_m_s =
-        (to_beat - official.waiting_reward * waited - angle_at_most) / official.speed_reward_s_m;
+    const double speed_m_s = least_speed_m_s(step, to_beat);
     if (speed_m_s > drive_.top_speed_m_s) {
       continue;
     }
@@ -111,10 +120,12 @@ void CeilingSearch::grow(int decision, std::uint32_t index, std::uint8_t action,
     const int step = decision * steps_per_decision + i;
     const double depth = track_.depth_m(step, branch.state.position_m);
     if (depth >= 0.0) {
-      const double reward = contact_reward(track_, step, branch.state);
+      const bool safe = branch.safe && depth > safe_margin_m;
+      const double reward = contact_reward(drive_, track_, step, branch.state, drive_.set_points_m_s[action],
+                                           safe ? ceiling_.safe.reward : ceiling_.best.reward);
       const Contact here{.level = decision, .branch = index, .action = action};
       record(ceiling_.best, best_, reward, step, here);
-      if (branch.safe && depth > safe_margin_m) {
+      if (safe) {
         record(ceiling_.safe, safe_, reward, step, here);
       }
       return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The best reward that any action sequence gets in an episode: 3 actions in 40 decisions.
+// The best reward that any action sequence gets in an episode of the kick or of the aimed kick: 3 actions in 40 decisions.
 //
 // Until the ball is near enough to the robot's line to be touched, the reachable states are the same in every
 // episode (reachable.hpp). From there on the search goes forward decision by decision: every state that has
@@ -39,7 +39,7 @@ struct Ceiling {
 // One thread uses one search; many may share the reachable states.
 class CeilingSearch {
  public:
-  explicit CeilingSearch(const Reachable& reachable);
+  explicit CeilingSearch(const Reachable& reachable, sil::KickReward reward = sil::KickReward::contact);
 
   [[nodiscard]] Ceiling search(const sil::KickStart& start);
 
@@ -68,6 +68,7 @@ class CeilingSearch {
   };
 
   [[nodiscard]] Needs needs(int decision, double to_beat) const;
+  [[nodiscard]] double least_speed_m_s(int step, double to_beat) const;
   void begin(int decision);
   void expand(int decision);
   void grow(int decision, std::uint32_t branch, std::uint8_t action, const Needs& next);

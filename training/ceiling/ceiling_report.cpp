@@ -40,13 +40,14 @@ std::string ceiling_table(const CeilingOptions& options, const std::vector<Ceili
   const CeilingFigures figures = ceiling_figures(options, episodes);
   const auto& [mean, standard_error] = figures.ceiling;
   std::string table = fmt::format(
-      "{} episodes, seed {}, pose {}; replays and rivals in the {} world\n"
+      "{}{} episodes, seed {}, pose {}; replays and rivals in the {} world\n"
       "ceiling: mean reward {:.4f}, standard error {:.4f}; contact is possible in {:.1f} % of the episodes\n"
       "replayed, the best actions make the contact that was found in {:.2f} % of the episodes\n\n"
       "{:<34}{:>8}{:>10}{:>10}{:>10}\n",
-      options.episodes, options.seed, options.pose == sil::PoseMode::origin ? "origin" : "anywhere",
-      world_name(options.replay), mean, standard_error, 100.0 * figures.contact_possible,
-      100.0 * figures.found_again, "", "reward", "score", "contacts", "kicks");
+      options.reward == sil::KickReward::aimed ? "the aimed kick: " : "", options.episodes, options.seed,
+      options.pose == sil::PoseMode::origin ? "origin" : "anywhere", world_name(options.replay), mean,
+      standard_error, 100.0 * figures.contact_possible, 100.0 * figures.found_again, "", "reward", "score",
+      "contacts", "kicks");
   const std::array replays = {"replayed: the best", "replayed: the best off the edges",
                               "replayed: the better of the two"};
   for (std::size_t i = 0; i < replays.size(); ++i) {
@@ -71,6 +72,9 @@ std::string ceiling_json(const CeilingOptions& options, const std::vector<Ceilin
                                    {"contact_possible", figures.contact_possible},
                                    {"world", world_name(options.replay)},
                                    {"found_again", figures.found_again}};
+  if (options.reward == sil::KickReward::aimed) {
+    report["task"] = "aimed";
+  }
   for (const core::RobotKey& key : core::robot_keys) {
     report["robot"][std::string(key.name)] = options.grid.robot.*key.member;
   }

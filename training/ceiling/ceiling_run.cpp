@@ -47,8 +47,11 @@ std::vector<CeilingEpisode> run_ceiling(const CeilingOptions& options, const Rea
   // Each worker has a search and a world of its own, and writes only its episodes' places.
   const auto work = [&](const std::stop_token& stopped) {
     try {
-      CeilingSearch search(reachable);
-      KickEnvironment env({.robot = reachable.grid().robot, .physics = options.replay, .pose = options.pose});
+      CeilingSearch search(reachable, options.reward);
+      KickEnvironment env({.robot = reachable.grid().robot,
+                           .physics = options.replay,
+                           .pose = options.pose,
+                           .rules = {.reward = options.reward}});
       for (int i = next++; i < options.episodes && !stopped.stop_requested(); i = next++) {
         const auto number = static_cast<std::size_t>(i);
         episodes[number] = run_episode(options, number, search, env);

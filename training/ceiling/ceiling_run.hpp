@@ -17,6 +17,7 @@ struct CeilingOptions {
   std::uint64_t seed = 0;
   int episodes = 0;  // numbers 0 and up, as in striker-evaluate and striker-sil
   sil::PoseMode pose = sil::PoseMode::origin;
+  sil::KickReward reward = sil::KickReward::contact;
   Physics replay = Physics::planar;  // where the found actions, and the rivals, are played
   bool rivals = false;
   int jobs = 1;

@@ -66,7 +66,7 @@ int plan_ahead(const KickEnvironment& env) {
   const BallTrack track = ball_track(
       {.position_m = {seen.ball_x_m, seen.ball_y_m}, .velocity_m_s = {seen.ball_vx_m_s, seen.ball_vy_m_s}},
       left * steps_per_decision);
-  const PlanValue value = best_plan(line_drive(env.config().robot), track,
+  const PlanValue value = best_plan(line_drive(env.config().robot, env.config().rules.reward), track,
                                     {.position_m = 0.0, .speed_m_s = seen.robot_speed_m_s}, left);
   return value.contact && value.reward > left * official.waiting_reward ? value.plan.action(0) : stay;
 }

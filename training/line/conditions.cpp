@@ -39,13 +39,25 @@ Conditions draw_conditions(const RandomiseConfig& ranges, double strength, sil::
   return conditions;
 }
 
-double gain_limit_m_s(const core::RobotDescription& robot, const Conditions& conditions) {
+Bodies bodies_of(const core::RobotDescription& robot, const Conditions& conditions) {
   const sil::RobotSpec spec = sil::spec_of(robot);
   sil::PlanarModel model = sil::planar_model(spec);
   model.grip_N = conditions.friction_scale * conditions.mass_scale * model.grip_N;
-  model.mass_kg = conditions.mass_scale * model.mass_kg;
-  const sil::WheelServo servo{.torque_ceiling_Nm = conditions.torque_scale * spec.max_wheel_torque_Nm};
-  return sil::straight_gain_limit_m_s(model, servo, physics_step_s);
+  for (double* const inert :
+       {&model.mass_kg, &model.own_inertia_kgm2, &model.wheel_inertia_kgm2, &model.inertia_kgm2}) {
+    *inert = conditions.mass_scale * *inert;
+  }
+  return {.robot = model,
+          .torque_ceiling_Nm = conditions.torque_scale * spec.max_wheel_torque_Nm,
+          .ball_kept_after_1_s = conditions.ball_damping_scale == 1.0
+                                     ? sil::kept_after_1_s
+                                     : std::exp(-conditions.ball_damping_scale * sil::damping_per_s)};
+}
+
+double gain_limit_m_s(const core::RobotDescription& robot, const Conditions& conditions) {
+  const Bodies bodies = bodies_of(robot, conditions);
+  return sil::straight_gain_limit_m_s(bodies.robot, {.torque_ceiling_Nm = bodies.torque_ceiling_Nm},
+                                      physics_step_s);
 }
 
 double ball_kept(const Conditions& conditions) {

@@ -3,6 +3,7 @@
 // 2017). What they do is in line_episode.cpp; who draws them and how often is said by [randomise].
 #pragma once
 
+#include "sil/world/planar_robot.hpp"
 #include "sil/world/random.hpp"
 #include "training/task/task_config.hpp"
 
@@ -21,6 +22,16 @@ struct Conditions {
 
 // The ranges shrunk towards the nominal values by `strength`, 0 to 1.
 [[nodiscard]] Conditions draw_conditions(const RandomiseConfig& ranges, double strength, sil::Random& random);
+
+// What meets in a contact.
+struct Bodies {
+  sil::PlanarModel robot;
+  double torque_ceiling_Nm = 0.0;  // of each wheel
+  double ball_kept_after_1_s = sil::kept_after_1_s;
+  bool operator==(const Bodies&) const = default;
+};
+
+[[nodiscard]] Bodies bodies_of(const core::RobotDescription& robot, const Conditions& conditions = {});
 
 // The greatest gain of this robot's speed in a physics step, straight on.
 [[nodiscard]] double gain_limit_m_s(const core::RobotDescription& robot, const Conditions& conditions);

@@ -89,6 +89,7 @@ LineKick::LineKick(const TaskConfig& task)
     : task_(task),
       top_speed_m_s_(line_drive(task.robot).top_speed_m_s),
       described_gain_limit_m_s_(line_drive(task.robot).gain_limit_m_s),
+      bodies_(bodies_of(task.robot)),
       delays_(described_delays(task.robot)) {
   if (const std::string why = unfit(task); !why.empty()) {
     throw std::invalid_argument("LineKick: " + why);
@@ -107,6 +108,7 @@ LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number, const Condi
   const sil::KickStart start = sil::draw_kick(seed, number, task_.pose, task_.rules);
   LineEpisode episode{.track = ball_track(start.ball, task_steps, ball_kept(conditions)),
                       .gain_limit_m_s = gain_limit_m_s(task_.robot, conditions),
+                      .bodies = bodies_of(task_.robot, conditions),
                       .command_delay_steps = delays_.command_steps + conditions.command_delay_steps,
                       .vision_late_frames = conditions.vision_late_frames,
                       .features = {}};
@@ -169,24 +171,24 @@ LineState LineKick::led_through_delay(const LineRobot& robot) const {
   return led;
 }
 
-void LineKick::step(const LineEpisode& episode, LineRobot& robot, int action) const {
+void LineKick::step(const LineEpisode& episode, LineRobot& robot, int action, double to_beat) const {
   std::shift_right(robot.before.begin(), robot.before.end(), 1);
   robot.before.front() = led_through_delay(robot);
-  const std::array set_points_m_s = {robot.last_set_point_m_s, robot.set_point_m_s, set_point_m_s(action)};
+  const Push push{.set_point_m_s = set_point_m_s(action),
+                  .last_set_point_m_s = robot.set_point_m_s,
+                  .one_before_m_s = robot.last_set_point_m_s,
+                  .late_steps = episode.command_delay_steps};
   const int first = robot.decision * steps_per_decision;
   for (int i = 0; i < steps_per_decision; ++i) {
     if (episode.track.depth_m(first + i, robot.now.position_m) >= 0.0) {
       robot.over = robot.contact = true;
-      robot.reward = contact_reward(episode.track, first + i, robot.now);
+      robot.reward = contact_reward(episode, first + i, robot, push, to_beat);
       return;
     }
-    const int decisions_late =
-        (episode.command_delay_steps - i + steps_per_decision - 1) / steps_per_decision;
-    advance(robot.now, set_points_m_s[static_cast<std::size_t>(2 - std::max(decisions_late, 0))],
-            episode.gain_limit_m_s);
+    advance(robot.now, push.at(i), episode.gain_limit_m_s);
   }
   robot.last_set_point_m_s = robot.set_point_m_s;
-  robot.set_point_m_s = set_points_m_s.back();
+  robot.set_point_m_s = push.set_point_m_s;
   ++robot.decision;
   if (robot.decision * steps_per_decision >= episode.track.end) {
     robot.over = true;
@@ -194,8 +196,16 @@ void LineKick::step(const LineEpisode& episode, LineRobot& robot, int action) co
   }
 }
 
-double LineKick::contact_reward(const BallTrack& track, int step, const LineState& robot) const {
+double LineKick::contact_reward(const LineEpisode& episode, int step, const LineRobot& playing, Push push,
+                                double to_beat) const {
   const sil::KickRules& rules = task_.rules;
+  const BallTrack& track = episode.track;
+  const LineState& robot = playing.now;
+  if (rules.reward == sil::KickReward::aimed) {
+    push.late_steps -= step % steps_per_decision;
+    const Waited waited{.reward_a_decision = rules.waiting_reward, .decisions = step / steps_per_decision};
+    return aimed_contact_reward(episode.bodies, robot, track.ball(step), push, waited, to_beat);
+  }
   const auto n = static_cast<std::size_t>(step);
   const double ahead_m = track.x_m[n] - robot.position_m;
   const double speed_m_s = rules.signed_speed ? robot.speed_m_s : std::abs(robot.speed_m_s);
@@ -206,6 +216,14 @@ double LineKick::contact_reward(const BallTrack& track, int step, const LineStat
 
 double LineKick::most_reward(int decision) const {
   const sil::KickRules& rules = task_.rules;
+  if (rules.reward == sil::KickReward::aimed) {
+    // The ball comes as fast as it may both ways, over a corner.
+    const double fastest_m_s = rules.fastest_ball_m_s;
+    const sil::BallState ball{.position_m = {0.0, 0.5 * sil::robot_side_m + 1e-3},
+                              .velocity_m_s = {-fastest_m_s, -fastest_m_s}};
+    return most_aimed_reward(bodies_, top_speed_m_s_, ball,
+                             {.reward_a_decision = rules.waiting_reward, .decisions = decision});
+  }
   return rules.waiting_reward * decision + std::abs(rules.angle_reward) +
          std::abs(rules.speed_reward_s_m) * top_speed_m_s_;
 }

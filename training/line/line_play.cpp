@@ -2,6 +2,7 @@
 #include "training/line/line_play.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "sil/world/field_specs.hpp"
 #include "sil/world/robot_specs.hpp"
@@ -11,6 +12,8 @@ namespace striker::training {
 namespace {
 
 constexpr double half_side_m = 0.5 * sil::robot_side_m;
+
+constexpr double nothing = -std::numeric_limits<double>::infinity();
 
 double reach_m(double ball_y_m) {
   const double beside = std::max(std::abs(ball_y_m) - half_side_m, 0.0);
@@ -28,14 +31,15 @@ struct PlanProgress {
   double reward = 0.0;
 };
 
-// Carries out one decision.
+// Carries out one decision. A contact that cannot beat the best is given its bound.
 PlanEnding carry_out(PlanProgress& progress, const LineDrive& drive, const BallTrack& track, int action,
-                     double margin_m) {
+                     double margin_m, const PlanValue& best) {
   const double set_point_m_s = drive.set_points_m_s.at(static_cast<std::size_t>(action));
   for (int i = 0; i < steps_per_decision; ++i, ++progress.step) {
     const double depth = track.depth_m(progress.step, progress.robot.position_m);
     if (depth >= 0.0) {
-      progress.reward = contact_reward(track, progress.step, progress.robot);
+      progress.reward = contact_reward(drive, track, progress.step, progress.robot, set_point_m_s,
+                                       best.contact ? best.reward : nothing);
       return depth < margin_m ? PlanEnding::spoiled : PlanEnding::contact;
     }
     if (depth > -margin_m) {
@@ -48,13 +52,15 @@ PlanEnding carry_out(PlanProgress& progress, const LineDrive& drive, const BallT
 
 }  // namespace
 
-LineDrive line_drive(const core::RobotDescription& robot) {
+LineDrive line_drive(const core::RobotDescription& robot, sil::KickReward reward) {
   const sil::RobotSpec spec = sil::spec_of(robot);
   const double top_m_s = spec.max_rim_speed_m_s;
   return {.top_speed_m_s = top_m_s,
           .gain_limit_m_s = sil::straight_gain_limit_m_s(
               sil::planar_model(spec), {.torque_ceiling_Nm = spec.max_wheel_torque_Nm}, physics_step_s),
-          .set_points_m_s = {top_m_s, 0.0, -top_m_s}};
+          .set_points_m_s = {top_m_s, 0.0, -top_m_s},
+          .reward = reward,
+          .bodies = bodies_of(robot)};
 }
 
 BallTrack ball_track(sil::BallState ball, int steps, double kept) {
@@ -68,6 +74,7 @@ BallTrack ball_track(sil::BallState ball, int steps, double kept) {
     track.x_m[n] = ball.position_m.x;
     track.y_m[n] = ball.position_m.y;
     track.reach_m[n] = reach_m(ball.position_m.y);
+    track.velocity_m_s[n] = ball.velocity_m_s;
     if (track.reach_m[n] >= 0.0) {
       track.first = std::min(track.first, i);
       track.end = i + 1;
@@ -114,16 +121,16 @@ PlanValue best_plan(const LineDrive& drive, const BallTrack& track, const LineSt
       PlanEnding ending = PlanEnding::none;
       PlanProgress forward = waited;
       for (int i = reverse + wait; ending == PlanEnding::none && i < useful; ++i) {
-        ending = carry_out(forward, drive, track, 0, margin_m);
+        ending = carry_out(forward, drive, track, 0, margin_m, best);
       }
       consider(ending, forward, plan);
       if (reverse + wait < useful) {
-        waiting = carry_out(waited, drive, track, 1, margin_m);
+        waiting = carry_out(waited, drive, track, 1, margin_m, best);
         consider(waiting, waited, {.reverse = reverse, .wait = wait + 1});
       }
     }
     if (reverse < useful) {
-      reversing = carry_out(reversed, drive, track, 2, margin_m);
+      reversing = carry_out(reversed, drive, track, 2, margin_m, best);
       consider(reversing, reversed, {.reverse = reverse + 1, .wait = 0});
     }
   }

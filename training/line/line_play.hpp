@@ -11,18 +11,20 @@
 #include <cmath>
 #include <cstddef>
 
-#include "sil/world/physics_constants.hpp"
 #include "sil/world/planar_robot.hpp"
-#include "training/task/kick_environment.hpp"
+#include "training/line/leaving_ball.hpp"
+#include "training/line/line_state.hpp"
 
 namespace striker::training {
 
-// What a robot can do on its line.
+// What a robot can do on its line, and what it is paid for.
 struct LineDrive {
   double top_speed_m_s;   // what starts at rest is never faster
   double gain_limit_m_s;  // of the speed in a physics step, by the wheels
   // Forward, stop, backward: both wheels' (paper, section IV.A).
   std::array<double, 3> set_points_m_s;
+  sil::KickReward reward = sil::KickReward::contact;
+  Bodies bodies;
 
   // The most that the speed changes by in a physics step: the wheels' gain, and what damping takes beside it when the
   // robot reverses, each to the next mm/s.
@@ -32,28 +34,14 @@ struct LineDrive {
   }
 };
 
-static_assert(physics_step_ms == 10, "kept_in_10_ms is what a physics step keeps");
-
-// The official task, which the ceiling is of.
+// The official task, which the ceiling is of. The aimed kick waits as it does.
 inline constexpr sil::KickRules official;
 inline constexpr double no_contact_reward = sil::kick_decisions * official.waiting_reward;
 
 inline constexpr int task_steps = sil::kick_decisions * steps_per_decision;
 
-struct LineState {
-  double position_m = 0.0;
-  double speed_m_s = 0.0;
-};
-
-[[nodiscard]] LineDrive line_drive(const core::RobotDescription& robot);
-
-// The next physics step (sil::straight_speed_m_s) of a robot that can gain so much.
-inline void advance(LineState& robot, double set_point_m_s, double gain_limit_m_s) {
-  const double moved_m_s =
-      robot.speed_m_s + std::clamp(set_point_m_s - robot.speed_m_s, -gain_limit_m_s, gain_limit_m_s);
-  robot.position_m += physics_step_s * moved_m_s;
-  robot.speed_m_s = sil::kept_in_10_ms * moved_m_s;
-}
+[[nodiscard]] LineDrive line_drive(const core::RobotDescription& robot,
+                                   sil::KickReward reward = sil::KickReward::contact);
 
 // Where the ball is before each physics step, and how far from its x the robot's centre touches it there:
 // below 0 nowhere.
@@ -61,18 +49,23 @@ struct BallTrack {
   std::array<double, task_steps> x_m;
   std::array<double, task_steps> y_m;
   std::array<double, task_steps> reach_m;
+  std::array<sil::Vec2, task_steps> velocity_m_s;
   // Steps outside [first, end) have no reach. None: first = end.
   int first = 0;
   int end = 0;
   int begun = 0;  // physics steps of the episode before the track's first
 
   // Before this step of the track.
-  [[nodiscard]] int decisions_waited(int step) const { return (begun + step) / steps_per_decision; }
+  [[nodiscard]] constexpr int decisions_waited(int step) const { return (begun + step) / steps_per_decision; }
 
   // How far inside the contact the robot is, along its line. Below 0: no contact.
   [[nodiscard]] double depth_m(int step, double position_m) const {
     const auto n = static_cast<std::size_t>(step);
     return reach_m[n] - std::abs(x_m[n] - position_m);
+  }
+  [[nodiscard]] sil::BallState ball(int step) const {
+    const auto n = static_cast<std::size_t>(step);
+    return {.position_m = {x_m[n], y_m[n]}, .velocity_m_s = velocity_m_s[n]};
   }
 };
 
@@ -83,7 +76,12 @@ struct BallTrack {
 // From this physics step of the episode on.
 [[nodiscard]] BallTrack ball_track(const sil::KickStart& start, int begun = 0);
 
-// What the contact pays that is found before this step, with the decisions waited from step 0 on.
+// The official waiting before this step.
+[[nodiscard]] constexpr Waited waited_until(const BallTrack& track, int step) {
+  return {.reward_a_decision = official.waiting_reward, .decisions = track.decisions_waited(step)};
+}
+
+// What the official contact pays, with what waiting costs.
 [[nodiscard]] inline double contact_reward(const BallTrack& track, int step, const LineState& robot) {
   const auto n = static_cast<std::size_t>(step);
   const double ahead_m = track.x_m[n] - robot.position_m;
@@ -91,6 +89,16 @@ struct BallTrack {
   return official.waiting_reward * waited +
          official.angle_reward * ahead_m / std::hypot(ahead_m, track.y_m[n]) +
          official.speed_reward_s_m * robot.speed_m_s;
+}
+
+// The same of the task that the drive is paid for, of a decision that goes on with this set-point. An aimed contact that
+// cannot beat `to_beat` may be told as anything up to that.
+[[nodiscard]] inline double contact_reward(const LineDrive& drive, const BallTrack& track, int step,
+                                           const LineState& robot, double set_point_m_s, double to_beat) {
+  return drive.reward == sil::KickReward::contact
+             ? contact_reward(track, step, robot)
+             : aimed_contact_reward(drive.bodies, robot, track.ball(step), {.set_point_m_s = set_point_m_s},
+                                    waited_until(track, step), to_beat);
 }
 
 // Reverse, wait, then forward to the end, each for some decisions.

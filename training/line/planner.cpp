@@ -26,9 +26,10 @@ PlanActions plan_actions(const LineKick& kick) {
   return best;
 }
 
-double held_to_the_end(const LineKick& kick, const LineEpisode& episode, LineRobot robot, int action) {
+double held_to_the_end(const LineKick& kick, const LineEpisode& episode, LineRobot robot, int action,
+                       double to_beat) {
   while (!robot.over) {
-    kick.step(episode, robot, action);
+    kick.step(episode, robot, action, to_beat);
   }
   return robot.reward;
 }
@@ -43,11 +44,11 @@ double plan_reward(const LineKick& kick, const LineEpisode& episode, const LineR
   for (int reverse = 0; reverse <= most_reverse && !hopeless(reversed); ++reverse) {
     LineRobot waited = reversed;
     while (!hopeless(waited)) {
-      best = std::max(best, held_to_the_end(kick, episode, waited, actions.forward));
-      kick.step(episode, waited, actions.wait);
+      best = std::max(best, held_to_the_end(kick, episode, waited, actions.forward, best));
+      kick.step(episode, waited, actions.wait, best);
     }
     best = waited.over ? std::max(best, waited.reward) : best;
-    kick.step(episode, reversed, actions.backward);
+    kick.step(episode, reversed, actions.backward, best);
   }
   return reversed.over ? std::max(best, reversed.reward) : best;
 }

@@ -21,6 +21,7 @@ namespace {
 struct Options {
   CeilingOptions run;
   std::filesystem::path robot;
+  std::string task = "kick";
   std::string pose = "origin";
   std::string replay = "fast";
   double position_cell_mm = 5.0;
@@ -31,6 +32,7 @@ struct Options {
 
 int find_ceiling(Options options) {
   CeilingOptions& run = options.run;
+  run.reward = options.task == "kick" ? sil::KickReward::contact : sil::KickReward::aimed;
   run.pose = options.pose == "origin" ? sil::PoseMode::origin : sil::PoseMode::anywhere;
   run.replay = options.replay == "fast" ? Physics::planar : Physics::full;
   run.grid = {.position_cell_m = options.position_cell_mm * 1e-3,
@@ -70,7 +72,7 @@ int main(int argc, char** argv) {
   using namespace striker::training;
   CLI::App app(
       "Finds the best reward that any sequence of the three actions gets in each episode of the official\n"
-      "kick task, on the episodes that striker-evaluate and striker-sil play with the same seed, and replays\n"
+      "kick task or the aimed one, on the episodes that striker-evaluate and striker-sil play with the same seed, and replays\n"
       "the sequences. The mean is what a score is measured against: (mean reward + 4) / (ceiling + 4).",
       "striker-ceiling");
   Options options;
@@ -81,6 +83,9 @@ int main(int argc, char** argv) {
   striker::host::reads_file(
       app.add_option("--robot", options.robot,
                      "whose ceiling, a description as in firmware/robots; left out: the forward's"));
+  app.add_option("--task", options.task, "what the contact is paid for: as in kick, or as in aimed")
+      ->check(CLI::IsMember({"kick", "aimed"}))
+      ->capture_default_str();
   app.add_option("--pose", options.pose, "the robot's start: origin or anywhere on the field")
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();

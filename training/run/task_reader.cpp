@@ -51,6 +51,22 @@ StateInputs read_inputs(const TomlReader& reader) {
   return inputs;
 }
 
+// The aimed kick is paid by sil::aimed_reward, once.
+void require_no_contact_rewards(const TomlReader& reader, const TaskConfig& task) {
+  const sil::KickRules& rules = task.rules;
+  constexpr sil::KickRules official;
+  for (const auto& [key, is_default] :
+       {std::pair("reward.angle", rules.angle_reward == official.angle_reward),
+        std::pair("reward.speed", rules.speed_reward_s_m == official.speed_reward_s_m),
+        std::pair("reward.contact_speed", rules.signed_speed == official.signed_speed),
+        std::pair("reward.contacts", rules.every_contact == official.every_contact),
+        std::pair("reward.after_contact", !task.goes_on)}) {
+    if (!is_default) {
+      reader.fail(key, "only task.kind = \"kick\" reads it: leave it out, or change task.kind");
+    }
+  }
+}
+
 // The tables that only a kick has.
 void read_kick(const TomlReader& reader, TaskConfig& task) {
   sil::KickRules& rules = task.rules;
@@ -67,6 +83,11 @@ void read_kick(const TomlReader& reader, TaskConfig& task) {
   reader.read<bool>("reward.contact_speed", rules.signed_speed, {{"signed", true}, {"unsigned", false}});
   reader.read<bool>("reward.contacts", rules.every_contact, {{"first", false}, {"every", true}});
   reader.read<bool>("reward.after_contact", task.goes_on, {{"end", false}, {"go on", true}});
+  reader.read<sil::KickReward>("task.kind", rules.reward,
+                               {{"kick", sil::KickReward::contact}, {"aimed", sil::KickReward::aimed}});
+  if (rules.reward == sil::KickReward::aimed) {
+    require_no_contact_rewards(reader, task);
+  }
 }
 
 // Two numbers, the lower one first.
@@ -94,7 +115,7 @@ RandomiseConfig read_randomise(const TomlReader& reader) {
 
 TaskConfig read_task(const TomlReader& reader) {
   TaskConfig task{.robot = read_robot_table(reader)};
-  reader.read<TaskKind>("task.kind", task.kind, {{"kick", TaskKind::kick}});
+  reader.read<TaskKind>("task.kind", task.kind, {{"kick", TaskKind::kick}, {"aimed", TaskKind::kick}});
   reader.read<Physics>("task.world", task.physics, {{"fast", Physics::planar}, {"full", Physics::full}});
   reader.read<sil::PoseMode>("task.pose", task.pose,
                              {{"origin", sil::PoseMode::origin}, {"anywhere", sil::PoseMode::anywhere}});

@@ -54,7 +54,11 @@ void KickEnvironment::reset(std::uint64_t seed, std::uint64_t episode) {
 StepResult KickEnvironment::step(int action) {
   const bool before = success();
   const SetPoint& set_point = config_.actions[static_cast<std::size_t>(action)];
-  drive(in_mirror() ? mirrored(set_point) : set_point, steps_per_decision);
+  const SetPoint driven = in_mirror() ? mirrored(set_point) : set_point;
+  drive(driven, steps_per_decision);
+  if (config_.rules.reward == sil::KickReward::aimed && success() && !before) {
+    drive_until_measured(driven);
+  }
   StepResult result;
   result.reward = episode_.end_decision();
   ++decisions_;
@@ -66,6 +70,13 @@ StepResult KickEnvironment::step(int action) {
   result.end = result.last || done;
   result.truncated = result.last && !done;
   return result;
+}
+
+// The contact is paid for by then. Nothing that a learner reads comes after it.
+void KickEnvironment::drive_until_measured(const SetPoint& set_point) {
+  while (!outcome().ball_measured) {
+    drive(set_point, 1);
+  }
 }
 
 void KickEnvironment::finish() {

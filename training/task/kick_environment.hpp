@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One kick episode after another, as a learner meets them (environment.hpp). The servo plant of the paper:
 // wheels that hold a set-point within a torque ceiling. Delays of the task's robot are played, and led through in what
-// the learner sees (described_delays.hpp).
+// the learner sees (described_delays.hpp). The decision of an aimed contact lasts until
+// the ball is measured.
 #pragma once
 
 #include <array>
@@ -49,6 +50,7 @@ class KickEnvironment {
     return balls_[static_cast<std::size_t>(steps)];
   }
   void lead(Observation& seen) const;
+  void drive_until_measured(const SetPoint& set_point);
   [[nodiscard]] DecisionState observed() const;
 
   TaskConfig config_;

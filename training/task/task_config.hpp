@@ -11,7 +11,8 @@
 
 namespace striker::training {
 
-// Which environment plays the task (environments.hpp); `task.kind` in TOML.
+// Which environment plays the task (environments.hpp). `task.kind` in TOML: "kick" and "aimed" are both a kick's, with
+// another reward (sil::KickReward).
 enum class TaskKind { kick };
 
 // Both are the paper's servo plant. `planar`: the robot as one body on the plane (sil::PlanarWorld), 200

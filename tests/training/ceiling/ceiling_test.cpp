@@ -51,6 +51,23 @@ TEST(Ceiling, TheFastWorldGivesExactlyWhatWasFound) {
   }
 }
 
+TEST(Ceiling, TheAimedKickGetsWhatWasFound) {
+  CeilingSearch search(reachable(), sil::KickReward::aimed);
+  KickEnvironment env({.rules = {.reward = sil::KickReward::aimed}});
+  int kicked = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const Ceiling ceiling = search.search(sil::draw_kick(21, i, sil::PoseMode::origin));
+    for (const FoundSequence& found : {ceiling.best, ceiling.safe}) {
+      const sil::KickOutcome outcome = replayed(env, 21, i, found.actions);
+      EXPECT_NEAR(outcome.reward, found.reward, 1e-9) << i;
+      EXPECT_EQ(outcome.contact, found.contact_step >= 0) << i;
+      kicked += outcome.kicked ? 1 : 0;
+    }
+    EXPECT_GE(ceiling.best.reward, ceiling.safe.reward) << i;
+  }
+  EXPECT_GT(kicked, 100);
+}
+
 class OtherRobots : public testing::TestWithParam<core::RobotDescription> {};
 
 core::RobotDescription heavy(int command_delay_ms) {
@@ -140,6 +157,19 @@ TEST(Ceiling, NoRandomSequenceIsAboveIt) {
     }
   }
   EXPECT_GT(contacts, 1000);
+}
+
+// Nor a planner of the aimed kick, whose contacts are worth more apart.
+TEST(Ceiling, NoRivalOfTheAimedKickIsAboveIt) {
+  const CeilingOptions options{
+      .seed = 24, .episodes = 100, .reward = sil::KickReward::aimed, .rivals = true, .jobs = 2};
+  const auto episodes = run_ceiling(options, reachable(), [](int) { return true; });
+  ASSERT_EQ(episodes.size(), 100U);
+  for (const CeilingEpisode& episode : episodes) {
+    for (const sil::KickOutcome& rival : episode.rivals) {
+      EXPECT_LE(rival.reward, episode.ceiling.best.reward + 3.0 * grid_loss);
+    }
+  }
 }
 
 TEST(Ceiling, NoRivalIsAboveIt) {

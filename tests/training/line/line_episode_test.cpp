@@ -36,6 +36,11 @@ TaskConfig with_other_rules(TaskConfig task) {
   return task;
 }
 
+TaskConfig aimed(TaskConfig task) {
+  task.rules.reward = sil::KickReward::aimed;
+  return task;
+}
+
 // 2.8 kg in all, on tyres that slip before its torque ends.
 constexpr core::RobotDescription slippery = {.body_mass_g = 2500,
                                              .wheel_mass_g = 100,
@@ -90,6 +95,9 @@ INSTANTIATE_TEST_SUITE_P(Rollout, LineKicks,
                                          every_input(Velocities::exact, core::goalkeeper),
                                          with_other_rules(every_input(Velocities::estimated, core::defender)),
                                          every_input(Velocities::estimated, slippery),
+                                         aimed(every_input(Velocities::exact)),
+                                         aimed(every_input(Velocities::estimated, core::goalkeeper)),
+                                         aimed(every_input(Velocities::exact, late(43, 35))),
                                          every_input(Velocities::exact, late(20, 0)),
                                          every_input(Velocities::estimated, late(43, 35)),
                                          every_input(Velocities::exact, late(50, 50))));
@@ -128,11 +136,14 @@ TEST(LineKick, SeesWhereThingsAreWhenItsDecisionActs) {
 
 // From the start of an episode the plans are those that the ceiling's planner knows.
 TEST(Plans, AreWorthWhatTheCeilingsPlannerSays) {
-  for (const core::RobotDescription& robot : {core::forward, core::goalkeeper, slippery}) {
-    const LineKick kick({.robot = robot});
+  for (const auto& [robot, reward] :
+       {std::pair(core::forward, sil::KickReward::contact),
+        std::pair(core::goalkeeper, sil::KickReward::contact), std::pair(slippery, sil::KickReward::contact),
+        std::pair(core::forward, sil::KickReward::aimed)}) {
+    const LineKick kick({.robot = robot, .rules = {.reward = reward}});
     for (std::uint64_t number = 0; number < 200; ++number) {
       const LineEpisode episode = kick.draw(5, number);
-      const PlanValue value = best_plan(line_drive(robot), episode.track, {}, sil::kick_decisions);
+      const PlanValue value = best_plan(line_drive(robot, reward), episode.track, {}, sil::kick_decisions);
       ASSERT_NEAR(plan_reward(kick, episode, {}), std::max(value.reward, no_contact_reward), 1e-9) << number;
     }
   }

@@ -106,6 +106,22 @@ TEST(Config, TheCommittedPoliciesConfigurationsAreStillTheirOwn) {
   EXPECT_EQ(parse_config("[task]\nkind = \"kick\"\n", "f").text, parse_config("", "f").text);
 }
 
+// An aimed kick's contact is paid by the task itself.
+TEST(Config, AnAimedKickReadsNoRewardsOfTheContact) {
+  const Config aimed = parse_config("[task]\nkind = \"aimed\"\n", "f");
+  EXPECT_EQ(aimed.environments.front().rules.reward, sil::KickReward::aimed);
+  EXPECT_EQ(parse_config(aimed.text, "g").text, aimed.text);
+  EXPECT_EQ(parse_config("[task]\nkind = \"aimed\"\n[reward]\nwaiting = -0.2\n", "f")
+                .environments.front()
+                .rules.waiting_reward,
+            -0.2);
+  for (const char* rewards : {"angle = 2.0", "speed = 3.0", "contact_speed = \"unsigned\"",
+                              "contacts = \"every\"", "after_contact = \"go on\""}) {
+    const std::string text = std::string("[task]\nkind = \"aimed\"\n[reward]\n") + rewards + "\n";
+    expect_refused([&] { (void)parse_config(text, "some.toml"); }, "some.toml", {"reward.", "task.kind"});
+  }
+}
+
 // The forward's table stands in no text; another robot's does, with the actions that follow from it.
 TEST(Config, ARobotStandsInTheTextUnlessItIsTheForward) {
   const Config paper = parse_config("", "f");

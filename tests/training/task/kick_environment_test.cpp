@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -61,6 +62,34 @@ TEST(KickEnvironment, RewardsOfTheStepsAddUpToTheOutcome) {
   }
   EXPECT_GT(contacts, 5);
   EXPECT_LT(contacts, 95);
+}
+
+// The step of the contact lasts until the ball is measured, and pays for how it leaves.
+TEST(KickEnvironment, AnAimedContactIsPaidForTheBallThatLeaves) {
+  for (const Physics physics : {Physics::planar, Physics::full}) {
+    KickEnvironment env({.physics = physics, .rules = {.reward = sil::KickReward::aimed}});
+    int contacts = 0;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      env.reset(seed, i);
+      StepResult result;
+      int steps = 0;
+      for (; !result.end; ++steps) {
+        EXPECT_EQ(result.reward, steps == 0 ? 0.0 : -0.1);
+        result = env.step(scripted(env));
+      }
+      const sil::KickOutcome& outcome = env.outcome();
+      ASSERT_EQ(outcome.ball_measured, outcome.contact) << i;
+      if (outcome.contact) {
+        const double along_m_s = outcome.ball_speed_m_s * std::cos(outcome.ball_angle_rad);
+        const double across_m_s = outcome.ball_speed_m_s * std::sin(outcome.ball_angle_rad);
+        const double paid = std::max(-4.0, 2.0 * (along_m_s - std::abs(across_m_s)));
+        EXPECT_NEAR(result.reward, paid, 1e-12) << i;
+        EXPECT_NEAR(outcome.reward, paid - 0.1 * (steps - 1), 1e-12) << i;
+        ++contacts;
+      }
+    }
+    EXPECT_GT(contacts, 15);
+  }
 }
 
 TEST(KickEnvironment, PlayMeasuresEveryContact) {
