@@ -5,8 +5,7 @@
 //
 // Integers only, no heap, no clock, no I/O, no statics: all state is in the object, which may be copied (a
 // copy goes on alone, with the same answers). One thread at a time. It never fails: what goes wrong becomes
-// a latched fault and torque 0. It knows no frames: firmware/can makes percepts of them, and frames of what
-// it says; firmware/loop puts the two around it.
+// a latched fault and torque 0. It knows no frames: firmware/can makes percepts of them and tells what it says.
 //
 //   Controller<Pilot<policy::kick>> controller(profile_of(forward));
 //   Actions actions;
@@ -278,9 +277,7 @@ class Controller {
     const Estimate seen = led_through_delay(now_.robot, memory.estimator.at(now_.tick, now_.odometry),
                                             pending_.state.speed_change_mm_s(now_.robot));
     Decision decision = memory.pilot.decide(relative_state(seen), due);
-    if (leaves_field(now_.robot, seen, memory.pilot.set_point())) {
-      memory.pilot.end(decision);
-    }
+    memory.pilot.end_if(leaves_field(now_.robot, seen, memory.pilot.set_point()), decision);
     now_.set_point = memory.pilot.set_point();
     now_.kick_over = static_cast<std::uint32_t>(decision.over);
     return decision;
@@ -327,7 +324,6 @@ class Controller {
   Sealed<PendingTorques> pending_;
   bool memory_is_open_ = false;  // in this step: it was found sound, and will be sealed again
   std::uint32_t seal_;
-
   static_assert(std::is_trivially_copyable_v<PilotType>);
 };
 

@@ -122,10 +122,10 @@ class Pilot {
   }
 
   // The kick is over with this decision.
-  void end(Decision& decision) {
-    ended_ = 1;
-    set_point_ = {};
-    decision.over = true;
+  void end_if(bool ends, Decision& decision) {
+    ended_ = ends ? 1 : ended_;
+    set_point_ = ends ? WheelSpeeds{} : set_point_;
+    decision.over = decision.over || ends;
   }
 
   // Of the last decision; 0 before the first, and when the kick is over.

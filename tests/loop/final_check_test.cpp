@@ -33,7 +33,7 @@ struct StubbornPilot {
   Decision decide(const RelativeState&, DecisionDue due) {
     return {.extrapolated = due == DecisionDue::extrapolated};
   }
-  void end(Decision& decision) { decision.over = true; }
+  void end_if(bool ends, Decision& decision) { decision.over = ends; }
   [[nodiscard]] WheelSpeeds set_point() const { return {wanted_mm_s, wanted_mm_s}; }
 
   std::uint32_t marked = mark;

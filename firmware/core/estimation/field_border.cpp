@@ -15,7 +15,8 @@ constexpr std::int32_t magnitude(std::int32_t value) {
 
 // Beyond the border, and on the way out.
 constexpr bool is_out(std::int32_t now_um, std::int32_t way_um, std::int32_t border_mm) {
-  return border_mm != 0 && magnitude(now_um + way_um) > 1'000 * border_mm && (now_um + way_um < 0) == (way_um < 0);
+  return border_mm != 0 && magnitude(now_um + way_um) > 1'000 * border_mm &&
+         (now_um + way_um < 0) == (way_um < 0);
 }
 
 }  // namespace
