@@ -89,8 +89,8 @@ LineKick::LineKick(const TaskConfig& task)
     : task_(task),
       top_speed_m_s_(line_drive(task.robot).top_speed_m_s),
       described_gain_limit_m_s_(line_drive(task.robot).gain_limit_m_s),
-      bodies_(bodies_of(task.robot)),
-      delays_(described_delays(task.robot)) {
+      delays_(described_delays(task.robot)),
+      bodies_(bodies_of(task.robot)) {
   if (const std::string why = unfit(task); !why.empty()) {
     throw std::invalid_argument("LineKick: " + why);
   }

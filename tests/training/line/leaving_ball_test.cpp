@@ -67,7 +67,7 @@ sil::Vec2 stepped(const Bodies& bodies, const Contact& contact) {
   sil::BallState ball = contact.ball;
   collision.begin(robot, ball);
   for (int step = 0; step < 11; ++step) {
-    const auto& [then_m_s, former_m_s, late_steps] = contact.push;
+    const auto& [then_m_s, former_m_s, one_before_m_s, late_steps] = contact.push;
     const sil::WheelServo servo{.rim_speed_m_s = step < late_steps ? former_m_s : then_m_s,
                                 .torque_ceiling_Nm = bodies.torque_ceiling_Nm};
     collision.step({servo, servo});
