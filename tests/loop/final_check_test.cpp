@@ -3,6 +3,7 @@
 // is known at run time alone. The pilot is the test's own: no policy would do this.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 
 #include "firmware/can/drives/striker_drives.hpp"
@@ -108,6 +109,38 @@ TEST(FinalCheck, TheTopSpeedItselfIsDriven) {
   bench.run(60);
   EXPECT_EQ(bench.controller.fault(), Fault::none);
   EXPECT_EQ(bench.actions.drive.set_point.left_mm_s, 2550);
+}
+
+// Wheels that hardly turn for a while are pushed harder and harder: of that nothing is left when another run begins.
+TEST(FinalCheck, AnotherArmingForgetsWhatTheLoopsSummedUp) {
+  Bench<10> bench;
+  std::array<std::int32_t, 2> first_mNm{};
+  for (std::int32_t& torque_mNm : first_mNm) {
+    bench.arm();
+    while (bench.actions.drive.torque == WheelTorques{}) {
+      bench.tick();
+    }
+    torque_mNm = bench.actions.drive.torque.left_mNm;
+    bench.run(200);
+    ASSERT_EQ(bench.controller.fault(), Fault::none);
+    ASSERT_GT(bench.actions.drive.torque.left_mNm, torque_mNm + 20);
+    bench.requests.disarm = true;
+    bench.tick();
+    ASSERT_EQ(bench.actions.drive, DriveCommand{});
+  }
+  EXPECT_EQ(first_mNm[0], first_mNm[1]);
+}
+
+// In a fault nothing is wanted of the drives: there is nothing to refuse.
+TEST(FinalCheck, AFaultWhileDrivingStaysAlone) {
+  Bench<1000> bench;
+  bench.arm();
+  bench.run(60);
+  ASSERT_NE(bench.actions.drive, DriveCommand{});
+  bench.sends_pictures = false;
+  bench.run(300);
+  EXPECT_EQ(bench.controller.fault(), Fault::vision_lost);
+  EXPECT_EQ(bench.controller.faults(), set_of(Fault::vision_lost));
 }
 
 TEST(FinalCheck, MemoryThatChangedIsNoticedBeforeADecisionWithoutAPicture) {
