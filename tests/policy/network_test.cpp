@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "firmware/policy/built_in.hpp"
+#include "firmware/policy/exported/aimed.hpp"
 #include "firmware/policy/exported/kick_dqn.hpp"
 #include "firmware/policy/proof.hpp"
 #include "tests/policy/tested_infer.hpp"
@@ -96,15 +97,21 @@ TEST(Network, AnswersItsGoldenVectors) {
   }
 }
 
-// What is exported beside the built-in policy is as sound.
-TEST(Network, TheDqnsHeaderProvesItselfAndPassesItsGoldenVectors) {
-  static_assert(scales_are_valid(kick_dqn) && sums_fit(kick_dqn) && inputs_are_known(kick_dqn) &&
-                identity_of(kick_dqn) == kick_dqn.identity);
-  for (const auto& golden : kick_dqn.golden_vectors) {
-    const auto q = infer<kick_dqn>(golden.raw);
+template <const auto& policy>
+void expect_sound() {
+  static_assert(scales_are_valid(policy) && sums_fit(policy) && inputs_are_known(policy) &&
+                identity_of(policy) == policy.identity);
+  for (const auto& golden : policy.golden_vectors) {
+    const auto q = infer<policy>(golden.raw);
     EXPECT_EQ(q.sums, golden.sums);
     EXPECT_EQ(q.action, golden.action);
   }
+}
+
+// What is exported beside the built-in policy is as sound.
+TEST(Network, TheOtherHeadersProveThemselvesAndPassTheirGoldenVectors) {
+  expect_sound<kick_dqn>();
+  expect_sound<aimed>();
 }
 
 TEST(Network, OfEqualActionsTheLowestIsChosen) {

@@ -56,7 +56,9 @@ std::vector<std::string> origin_of(const Model& model) {
 
 std::string header_of(const Export& exported, const Model& model, const std::string& name) {
   std::vector<std::string> notes{
-      "The kick policy: an integer Q network, written by striker-export. Do not edit: an altered number does",
+      fmt::format(
+          "The {} policy: an integer Q network, written by striker-export. Do not edit: an altered number does",
+          name),
       "not compile. Format and arithmetic: firmware/policy/policy.hpp.", ""};
   for (const std::string& note : origin_of(model)) {
     notes.push_back(note);

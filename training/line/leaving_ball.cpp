@@ -68,8 +68,8 @@ bool parted(const Bodies& bodies, const sil::PlanarRobot& robot, const sil::Ball
 
 // A ball that bounces off leaves with 1.8 times the robot's speed and 0.8 times its own; one that does not is pushed, by a
 // robot that gains speed. What crosses costs where it leaves the robot's face, less at a faster kick, as the face rubs
-// more; a corner that it comes in over turns a part of it forward. The figures are what 500,000 random contacts of the
-// forward got at most, with balls of up to 3 m/s; rewards below the least bound they say nothing of.
+// more; a corner that it comes in over turns a part of it forward. The figures are what nearly all of 500,000 random
+// contacts of the forward got at most, with balls of up to 3 m/s; rewards below the least bound they say nothing of.
 constexpr double least_bound = 4.0;
 
 // The bounds, of a robot at speed v: steep * v + from, whatever the place.

@@ -55,7 +55,7 @@ TEST(Ceiling, TheAimedKickGetsWhatWasFound) {
   CeilingSearch search(reachable(), sil::KickReward::aimed);
   KickEnvironment env({.rules = {.reward = sil::KickReward::aimed}});
   int kicked = 0;
-  for (std::uint64_t i = 0; i < 100; ++i) {
+  for (std::uint64_t i = 0; i < 40; ++i) {
     const Ceiling ceiling = search.search(sil::draw_kick(21, i, sil::PoseMode::origin));
     for (const FoundSequence& found : {ceiling.best, ceiling.safe}) {
       const sil::KickOutcome outcome = replayed(env, 21, i, found.actions);
@@ -65,7 +65,7 @@ TEST(Ceiling, TheAimedKickGetsWhatWasFound) {
     }
     EXPECT_GE(ceiling.best.reward, ceiling.safe.reward) << i;
   }
-  EXPECT_GT(kicked, 100);
+  EXPECT_GT(kicked, 40);
 }
 
 class OtherRobots : public testing::TestWithParam<core::RobotDescription> {};
@@ -162,9 +162,9 @@ TEST(Ceiling, NoRandomSequenceIsAboveIt) {
 // Nor a planner of the aimed kick, whose contacts are worth more apart.
 TEST(Ceiling, NoRivalOfTheAimedKickIsAboveIt) {
   const CeilingOptions options{
-      .seed = 24, .episodes = 100, .reward = sil::KickReward::aimed, .rivals = true, .jobs = 2};
+      .seed = 24, .episodes = 30, .reward = sil::KickReward::aimed, .rivals = true, .jobs = 2};
   const auto episodes = run_ceiling(options, reachable(), [](int) { return true; });
-  ASSERT_EQ(episodes.size(), 100U);
+  ASSERT_EQ(episodes.size(), 30U);
   for (const CeilingEpisode& episode : episodes) {
     for (const sil::KickOutcome& rival : episode.rivals) {
       EXPECT_LE(rival.reward, episode.ceiling.best.reward + 3.0 * grid_loss);

@@ -3,6 +3,7 @@
 #include "training/run/config.hpp"
 
 #include "firmware/core/robot_ranges.hpp"
+#include "firmware/policy/exported/aimed.hpp"
 #include "firmware/policy/exported/kick.hpp"
 #include "firmware/policy/exported/kick_dqn.hpp"
 #include "tests/training/fixtures.hpp"
@@ -102,6 +103,7 @@ TEST(Config, TheCommittedPoliciesConfigurationsAreStillTheirOwn) {
   const Config kick = load_config(configs / "kick.toml");
   EXPECT_EQ(fnv1a(kick.text), policy::kick.configuration_hash);
   EXPECT_EQ(fnv1a(load_config(configs / "kick_dqn.toml").text), policy::kick_dqn.configuration_hash);
+  EXPECT_EQ(fnv1a(load_config(configs / "aimed.toml").text), policy::aimed.configuration_hash);
   EXPECT_EQ(kick.environments.front().kind, TaskKind::kick);
   EXPECT_EQ(parse_config("[task]\nkind = \"kick\"\n", "f").text, parse_config("", "f").text);
 }
