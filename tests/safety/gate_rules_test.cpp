@@ -72,6 +72,18 @@ TEST_F(GateRules, AChallengeIsGoodOnceForItsModeAndInTime) {
   EXPECT_TRUE(moves()) << "a request does not close it";
 }
 
+// A second tool that asks, or renews, takes nothing from the one that is about to confirm.
+TEST_F(GateRules, ARequestLeavesTheOpenChallengeOpen) {
+  for (const std::int32_t mode : {arm, clear, renew}) {
+    feed(13);
+    challenge(arm, 5);
+    order(mode, 0);
+    order(arm, 5);
+    EXPECT_TRUE(moves()) << mode;
+    order(static_cast<std::int32_t>(can::Mode::disarm), 0);
+  }
+}
+
 TEST_F(GateRules, AChallengeLastsItsTime) {
   for (const std::uint32_t wait : {600U, 601U}) {
     SCOPED_TRACE(wait);
