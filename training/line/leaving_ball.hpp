@@ -26,7 +26,7 @@ struct Push {
 };
 
 // The ball's velocity 100 ms after the step whose collision test finds the contact; both states are those before it.
-// About 30 us.
+// Some 10 us.
 [[nodiscard]] sil::Vec2 leaving_ball_m_s(const Bodies& bodies, const LineState& robot,
                                          const sil::BallState& ball, const Push& push);
 
@@ -42,8 +42,9 @@ struct Waited {
                                           const sil::BallState& ball, const Push& push, const Waited& waited,
                                           double to_beat = -std::numeric_limits<double>::infinity());
 
-// At most that, wherever on the line the robot meets the ball; and the speed below which it is at most `reward`. Measured,
-// not proved: one well-paid contact in 400 gets up to 0.4 more (tests/training/line/leaving_ball_test.cpp).
+// Hardly more than that, wherever on the line the robot meets the ball; and the speed below which it is hardly more than
+// `reward`. Measured, not proved: one well-paid contact in 100 gets up to 0.3 more (tests/training/line/leaving_ball_test.cpp),
+// so that what is found by this bound is itself a lower bound.
 [[nodiscard]] double most_aimed_reward(const Bodies& bodies, double robot_speed_m_s,
                                        const sil::BallState& ball, const Waited& waited);
 [[nodiscard]] double least_speed_for_m_s(const Bodies& bodies, double reward, const sil::BallState& ball,

@@ -104,7 +104,7 @@ TEST(LeavingBall, ALateDecisionActsLate) {
   EXPECT_EQ(speed_m_s({.set_point_m_s = 2.55, .last_set_point_m_s = -2.55, .late_steps = 0}), at_once);
 }
 
-// The search drops, and the planner passes over, what the bound says cannot pay. One contact in 400 that pays well is a
+// The search drops, and the planner passes over, what the bound says cannot pay. One contact in 100 that pays well is a
 // little above it.
 TEST(LeavingBall, PaysHardlyMoreThanTheBound) {
   for (const core::RobotDescription& description : {core::forward, core::goalkeeper}) {
