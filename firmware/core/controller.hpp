@@ -276,7 +276,7 @@ class Controller {
     }
     const Estimate seen = led_through_delay(now_.robot, memory.estimator.at(now_.tick, now_.odometry),
                                             pending_.state.speed_change_mm_s(now_.robot));
-    Decision decision = memory.pilot.decide(relative_state(seen), due);
+    Decision decision = memory.pilot.decide(relative_state(seen), due, is_late() ? 1 : 0);
     memory.pilot.end_if(leaves_field(now_.robot, seen, memory.pilot.set_point()), decision);
     now_.set_point = memory.pilot.set_point();
     now_.kick_over = static_cast<std::uint32_t>(decision.over);

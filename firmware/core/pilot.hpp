@@ -97,13 +97,14 @@ class Pilot {
     set_point_ = {};
   }
 
-  // One that is made again takes the last one's place, number and history with it.
-  [[nodiscard]] Decision decide(const RelativeState& seen, DecisionDue due) {
+  // One that is made again takes the last one's place, number and history with it. What is seen is led to when the
+  // decision acts, and so is the count: `begun_late` decisions have passed by then.
+  [[nodiscard]] Decision decide(const RelativeState& seen, DecisionDue due, std::uint32_t begun_late = 0) {
     const bool again = due == DecisionDue::again && decisions_ > 0;
     decisions_ -= again ? 1U : 0U;
     RelativeState now = seen;
     const auto made =
-        static_cast<std::int32_t>(std::min<std::uint32_t>(decisions_, policy::decisions_a_kick));
+        static_cast<std::int32_t>(std::min<std::uint32_t>(decisions_ + begun_late, policy::decisions_a_kick));
     now.decisions_left = policy::decisions_a_kick - made;
     remember(now, again);
     const bool mirror = one_sided && now.ball_um.y < 0;
@@ -123,9 +124,11 @@ class Pilot {
 
   // The kick is over with this decision.
   void end_if(bool ends, Decision& decision) {
-    ended_ = ends ? 1 : ended_;
-    set_point_ = ends ? WheelSpeeds{} : set_point_;
-    decision.over = decision.over || ends;
+    if (ends) {
+      ended_ = 1;
+      set_point_ = {};
+      decision.over = true;
+    }
   }
 
   // Of the last decision; 0 before the first, and when the kick is over.

@@ -31,19 +31,23 @@ struct StubbornPilot {
 
   SelfTest test_self(const RobotProfile&) { return SelfTest::passed; }
   void reset() {}
-  Decision decide(const RelativeState&, DecisionDue due) {
+  Decision decide(const RelativeState&, DecisionDue due, std::uint32_t late) {
+    begun_late = late;
     return {.extrapolated = due == DecisionDue::extrapolated};
   }
   void end_if(bool ends, Decision& decision) { decision.over = ends; }
   [[nodiscard]] WheelSpeeds set_point() const { return {wanted_mm_s, wanted_mm_s}; }
 
   std::uint32_t marked = mark;
+  std::uint32_t begun_late = 77;
 };
 
 template <std::int32_t wanted_mm_s>
 class Bench {
  public:
-  Controller<StubbornPilot<wanted_mm_s>> controller{robot};
+  explicit Bench(const RobotProfile& profile = robot) : controller(profile) {}
+
+  Controller<StubbornPilot<wanted_mm_s>> controller;
   Actions actions;
   bool sends_pictures = true;
   Requests requests;
@@ -129,6 +133,18 @@ TEST(FinalCheck, AnotherArmingForgetsWhatTheLoopsSummedUp) {
     ASSERT_EQ(bench.actions.drive, DriveCommand{});
   }
   EXPECT_EQ(first_mNm[0], first_mNm[1]);
+}
+
+// A decision that acts late is one of fewer that are left: the one before it has passed by then.
+TEST(FinalCheck, ADecisionIsCountedWhenItActs) {
+  for (const std::int32_t delay_ms : {0, 1, 20, 50}) {
+    RobotDescription late = forward;
+    late.command_delay_ms = delay_ms;
+    Bench<10> bench(profile_of(late));
+    bench.arm();
+    bench.run(60);
+    EXPECT_EQ(bench.controller.pilot().begun_late, delay_ms == 0 ? 0U : 1U) << delay_ms;
+  }
 }
 
 // In a fault nothing is wanted of the drives: there is nothing to refuse.

@@ -125,7 +125,7 @@ LineEpisode LineKick::draw(std::uint64_t seed, std::uint64_t number, const Condi
     const auto frame = static_cast<std::size_t>(decision + frames_before - conditions.vision_late_frames);
     const Picture& seen = pictures[frame];
     DecisionState state;
-    state.decisions_left = sil::kick_decisions - decision;
+    state.decisions_left = std::max(sil::kick_decisions - decision - delays_.decisions_begun(), 0);
     state.field.robot = {.x_m = seen.robot_m.x, .y_m = seen.robot_m.y, .heading_rad = 0.0};
     state.field.ball = {.position_m = seen.ball_m,
                         .velocity_m_s = estimated

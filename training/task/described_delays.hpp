@@ -22,6 +22,9 @@ inline void roll_on(sil::BallState& ball, double kept = sil::kept_in_10_ms) {
 struct DescribedDelays {
   int command_steps = 0;  // from a decision to its torque
   int picture_steps = 0;  // from a picture to its decision
+
+  // Decisions that have passed when one begins to act, the one that it ends then included.
+  [[nodiscard]] constexpr int decisions_begun() const { return command_steps > 0 ? 1 : 0; }
 };
 
 // A delay that is no multiple of a physics step takes the next one.

@@ -137,7 +137,7 @@ void KickEnvironment::lead(Observation& seen) const {
 
 DecisionState KickEnvironment::observed() const {
   DecisionState now;
-  now.decisions_left = sil::kick_decisions - decisions_;
+  now.decisions_left = std::max(sil::kick_decisions - decisions_ - delays_.decisions_begun(), 0);
   std::visit(
       [&](const auto& world) {
         Observation& seen = now.field;

@@ -134,6 +134,46 @@ TEST(LineKick, SeesWhereThingsAreWhenItsDecisionActs) {
   }
 }
 
+// Commands that are a whole decision late make it the game of a robot that stands for a decision and then plays on: the same
+// inputs a decision later, the count included, and the same reward.
+TEST(LineKick, AWholeDecisionLateIsADecisionLater) {
+  TaskConfig task{.velocities = Velocities::exact};
+  task.inputs.clear();
+  for (int element = 0; element <= static_cast<int>(Element::decisions_left); ++element) {
+    task.inputs.push_back({.element = static_cast<Element>(element)});
+  }
+  const LineKick at_once(task);
+  task.robot = late(50, 0);
+  const LineKick late_one(task);
+  std::mt19937 random(8);
+  int contacts = 0;
+  for (std::uint64_t number = 0; number < 300; ++number) {
+    const LineEpisode episode = at_once.draw(5, number);
+    const LineEpisode late_episode = late_one.draw(5, number);
+    LineRobot robot;
+    LineRobot late_robot;
+    constexpr int stop = 1;
+    at_once.step(episode, robot, stop);
+    int action = 0;
+    while (!robot.over) {
+      Features seen(static_cast<Eigen::Index>(task.inputs.size()));
+      Features late_seen(static_cast<Eigen::Index>(task.inputs.size()));
+      at_once.look(episode, robot, seen);
+      late_one.look(late_episode, late_robot, late_seen);
+      ASSERT_LT((seen - late_seen).cwiseAbs().maxCoeff(), 1e-5F) << number << ' ' << robot.decision;
+      action = random() % 4 == 0 ? static_cast<int>(random() % 3) : action;
+      at_once.step(episode, robot, action);
+      late_one.step(late_episode, late_robot, action);
+    }
+    while (!late_robot.over) {
+      late_one.step(late_episode, late_robot, action);
+    }
+    EXPECT_NEAR(late_robot.reward, robot.reward, 1e-9) << number;
+    contacts += robot.contact ? 1 : 0;
+  }
+  EXPECT_GT(contacts, 30);
+}
+
 // From the start of an episode the plans are those that the ceiling's planner knows.
 TEST(Plans, AreWorthWhatTheCeilingsPlannerSays) {
   for (const auto& [robot, reward] :
