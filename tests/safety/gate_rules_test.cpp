@@ -2,6 +2,8 @@
 // The command gate by itself, at each of its limits: a node behind it sends what it likes.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/safety/gate_fixture.hpp"
 
 namespace striker::safety {
@@ -82,6 +84,16 @@ TEST_F(GateRules, ARequestLeavesTheOpenChallengeOpen) {
     EXPECT_TRUE(moves()) << mode;
     order(static_cast<std::int32_t>(can::Mode::disarm), 0);
   }
+}
+
+TEST_F(GateRules, ARequestBehindAConfirmationTakesNothingFromIt) {
+  feed(13);
+  challenge(arm, 5);
+  can::SendCounter counter;
+  const std::array frames = {can::send(can::ModeCommand{.mode = arm, .challenge = 5}, counter),
+                             can::send(can::ModeCommand{.mode = clear}, counter)};
+  gate.take(frames, tick);
+  EXPECT_TRUE(moves());
 }
 
 TEST_F(GateRules, AChallengeLastsItsTime) {
