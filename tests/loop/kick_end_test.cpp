@@ -68,6 +68,25 @@ TEST(KickEnd, StandsAfterFortyDecisionsHoweverLongItStaysArmed) {
   EXPECT_EQ(watch.status.kick_over, 1);
 }
 
+// On a field of 2 cm each way no decision may move the robot, which takes 3 cm for one and 1 to stop: the kick
+// is over with the first that would, and the next arming begins another.
+TEST(KickEnd, ComesBeforeTheBorderThatTheDescriptionSets) {
+  core::RobotDescription fenced = core::forward;
+  fenced.field_half_length_mm = 20;
+  fenced.field_half_width_mm = 20;
+  Watch watch;
+  watch.rig.node = GatedNode<BuiltInNode>(core::profile_of(fenced));
+  for (int armed = 0; armed < 2; ++armed) {
+    watch.arm();
+    watch.run(kick_ms);
+    EXPECT_EQ(watch.moved, 0U);
+    EXPECT_EQ(watch.status.kick_over, 1);
+    EXPECT_EQ(watch.rig.state(), core::State::active);
+    watch.rig.mode(can::Mode::disarm);
+    watch.rig.tick();
+  }
+}
+
 // Pictures that come up to 5 ms after the decision they were due for: it is made again, is one of the forty, and is told
 // once, no sooner after another than the message table says.
 TEST(KickEnd, APictureThatComesALittleLateTakesNoDecisionFromTheKick) {
