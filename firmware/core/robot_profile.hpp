@@ -76,8 +76,12 @@ struct RobotProfile {
   std::int32_t command_delay_ticks = 0;
   std::int32_t pending_gain_q12 = 0;  // what a step of torque on both wheels adds in a tick, in mm/s
   std::int32_t turn_q12 = 0;          // binary angle for a um that the right rim is ahead of the left
-  std::int32_t field_half_length_mm = 0;
-  std::int32_t field_half_width_mm = 0;
+  // For estimation/field_border.hpp.
+  std::int32_t field_half_length_um = 0;  // less a margin; 0: no border
+  std::int32_t field_half_width_um = 0;
+  std::int32_t decision_gain_mm_s = 0;  // the most that a decision changes the speed by
+  std::int32_t braking_q4 = 1;          // what a tick of braking surely takes of it, in 16ths of mm/s
+  std::int32_t braking_late_ticks = 0;  // that it begins later than it is wanted, as loops and delays have it
 
   bool operator==(const RobotProfile&) const = default;
 };
@@ -93,6 +97,16 @@ constexpr std::int64_t crossover_rad_s(std::int64_t command_delay_ms) {
 }
 
 inline constexpr std::int64_t overspeed_percent = 115;
+
+// While it brakes a robot's skids carry a part of its weight, and its tyres hold less than their friction of all of it: in
+// the full world 39 % at a coefficient of 3.0, 60 % at 1.0 (sil/README.md).
+inline constexpr std::int64_t held_when_braking_percent = 35;
+inline constexpr std::int64_t gravity_mm_s2 = 9'810;
+inline constexpr std::int32_t border_margin_um = 10'000;
+
+constexpr std::int32_t border_um(std::int32_t half_mm) {
+  return half_mm == 0 ? 0 : std::max<std::int32_t>(1'000 * half_mm - border_margin_um, 1);
+}
 
 // numerator / denominator to the nearest.
 constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denominator) {
@@ -112,6 +126,9 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
   const std::int64_t kp_e9 = crossover * robot.wheel_radius_um * moved_mass_g / 2;
   constexpr std::int64_t e9 = 1'000'000'000;
   constexpr std::int64_t ticks_a_second = 1'000;
+  const std::int64_t acceleration_mm_s2 = 2'000'000'000 * std::int64_t{robot.torque_limit_mNm} / radius_mass;
+  const std::int64_t held_mm_s2 =
+      held_when_braking_percent * gravity_mm_s2 * robot.tyre_friction_percent / (100 * 100);
   constexpr std::int64_t circle_um_e3 =
       10'430'378;  // 65,536 / (2 pi): counts for an arc of one axle's length
   return {
@@ -126,8 +143,13 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
       .command_delay_ticks = robot.command_delay_ms,
       .pending_gain_q12 = rounded_ratio(8'192'000'000 * robot.torque_limit_mNm, torque_steps * radius_mass),
       .turn_q12 = rounded_ratio(4'096 * circle_um_e3, 1'000 * std::int64_t{robot.axle_length_um}),
-      .field_half_length_mm = robot.field_half_length_mm,
-      .field_half_width_mm = robot.field_half_width_mm};
+      .field_half_length_um = border_um(robot.field_half_length_mm),
+      .field_half_width_um = border_um(robot.field_half_width_mm),
+      .decision_gain_mm_s =
+          static_cast<std::int32_t>(decision_period_ms * acceleration_mm_s2 / ticks_a_second) + 1,
+      .braking_q4 = static_cast<std::int32_t>(
+          std::max<std::int64_t>(16 * std::min(acceleration_mm_s2, held_mm_s2) / ticks_a_second, 1)),
+      .braking_late_ticks = static_cast<std::int32_t>(ticks_a_second / crossover)};
 }
 
 // The ball's speed and the robot's are measured over about the time between two decisions, as in training: from a
@@ -194,6 +216,11 @@ static_assert(profile_of(forward) == RobotProfile{.torque_limit_mNm = 400,
                                                   .picture_period_us = 50'000,
                                                   .command_delay_ticks = 0,
                                                   .pending_gain_q12 = 358,  // 0.0875 mm/s
-                                                  .turn_q12 = 305});
+                                                  .turn_q12 = 305,
+                                                  .field_half_length_um = 0,
+                                                  .field_half_width_um = 0,
+                                                  .decision_gain_mm_s = 556,
+                                                  .braking_q4 = 164,  // 10.3 mm/s
+                                                  .braking_late_ticks = 10});
 
 }  // namespace striker::core

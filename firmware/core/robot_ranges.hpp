@@ -2,7 +2,7 @@
 // What a robot's description may hold: its members by their names in a file, with their ranges. For the files
 // (sil/robot/description/robot_file.hpp), and for the robot that a build is for (firmware/loop/built_in_robot.hpp).
 // Torque and speed end where a WheelCommand does (firmware/can/messages/drives.hpp): beyond, a frame would say less than
-// the controller reckons with.
+// the controller reckons with; so does a field where a VisionPose does.
 #pragma once
 
 #include <algorithm>
@@ -33,8 +33,8 @@ inline constexpr std::array robot_keys = {
     RobotKey{"camera_rate_Hz", &RobotDescription::camera_rate_Hz, 10, 100, true},
     RobotKey{"command_delay_ms", &RobotDescription::command_delay_ms, 0, 50, true},
     RobotKey{"tyre_friction_percent", &RobotDescription::tyre_friction_percent, 10, 1'000, true},
-    RobotKey{"field_half_length_mm", &RobotDescription::field_half_length_mm, 0, 20'000, true},
-    RobotKey{"field_half_width_mm", &RobotDescription::field_half_width_mm, 0, 20'000, true}};
+    RobotKey{"field_half_length_mm", &RobotDescription::field_half_length_mm, 0, 8'000, true},
+    RobotKey{"field_half_width_mm", &RobotDescription::field_half_width_mm, 0, 8'000, true}};
 
 [[nodiscard]] constexpr bool in_range(const RobotDescription& robot) {
   return std::all_of(robot_keys.begin(), robot_keys.end(), [&](const RobotKey& key) {

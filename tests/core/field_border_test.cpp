@@ -84,6 +84,15 @@ TEST(FieldBorder, ARobotThatComesBackInMay) {
   EXPECT_TRUE(leaves_field(profile, outside.seen(), {2'550, 2'550}));
 }
 
+// On both sides alike, also for one that turns in place.
+TEST(FieldBorder, OneThatStandsOutsideMayTurn) {
+  const RobotProfile profile = on_field(forward, 1'000, 1'000);
+  for (const double x_mm : {-1'500.0, 1'500.0}) {
+    EXPECT_FALSE(leaves_field(profile, Motion{.x_mm = x_mm}.seen(), {-500, 500}));
+    EXPECT_FALSE(leaves_field(profile, Motion{.x_mm = x_mm}.seen(), {}));
+  }
+}
+
 TEST(FieldBorder, ThereIsNoneUnlessItIsDescribed) {
   const Motion away{.x_mm = 100'000.0, .y_mm = -100'000.0, .heading_rad = 0.5, .speed_mm_s = 2'550.0};
   EXPECT_FALSE(leaves_field(profile_of(forward), away.seen(), {2'550, 2'550}));

@@ -2,9 +2,9 @@
 // Whether a robot would leave the field: a border that its description may set (field_half_length_mm and
 // field_half_width_mm, of a field around the origin of the camera's coordinates). A kick ends before it.
 //
-// A decision holds for `decision_period_ticks`, then the robot brakes by what its torque can: by then its centre must be
-// within the border, along its heading. It is so wherever the tyres hold that torque. A robot that stands outside may
-// drive back in. Once a decision; without a border it costs a comparison.
+// A decision holds for `decision_period_ticks`, then the robot brakes by what its torque can and its tyres hold, as soon as
+// wheel loops and delays let it: by then its centre must be within the border, 10 mm spared, along its heading. A robot
+// that turns meanwhile, or slides, is not foreseen. One that stands outside may drive back in. Once a decision.
 #pragma once
 
 #include "firmware/core/estimation/estimator.hpp"

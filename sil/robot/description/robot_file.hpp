@@ -13,7 +13,7 @@
 //   camera_rate_Hz = 60             pictures a second; 10 to 100; left out: 20, one for every decision
 //   command_delay_ms = 20           0 to 50; left out: 0
 //   tyre_friction_percent = 80      10 to 1,000; left out: 300, AI Soccer's
-//   field_half_length_mm = 3_900    where a kick ends, along x from the origin; 0 to 20,000; left out: 0, nowhere
+//   field_half_length_mm = 3_900    where a kick ends, along x from the origin; 0 to 8,000; left out: 0, nowhere
 //   field_half_width_mm = 2_325     along y, likewise
 #pragma once
 
