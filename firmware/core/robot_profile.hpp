@@ -128,7 +128,7 @@ constexpr std::int32_t rounded_ratio(std::int64_t numerator, std::int64_t denomi
   constexpr std::int64_t ticks_a_second = 1'000;
   const std::int64_t acceleration_mm_s2 = 2'000'000'000 * std::int64_t{robot.torque_limit_mNm} / radius_mass;
   const std::int64_t held_mm_s2 =
-      held_when_braking_percent * gravity_mm_s2 * robot.tyre_friction_percent / (100 * 100);
+      held_when_braking_percent * gravity_mm_s2 * robot.tyre_friction_percent / 10'000;
   constexpr std::int64_t circle_um_e3 =
       10'430'378;  // 65,536 / (2 pi): counts for an arc of one axle's length
   return {

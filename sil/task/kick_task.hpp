@@ -42,7 +42,8 @@ struct KickRules {
 };
 
 // From the contact's step to the ball's measurement.
-inline constexpr double measured_after_s = 0.100;
+inline constexpr int measured_after_ms = 100;
+inline constexpr double measured_after_s = measured_after_ms / 1000.0;
 
 // What the aimed kick pays for the ball's velocity then.
 [[nodiscard]] double aimed_reward(Vec2 ball_velocity_m_s, double target_heading_rad);

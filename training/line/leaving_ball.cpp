@@ -15,8 +15,7 @@ namespace striker::training {
 namespace {
 
 // The step that finds the contact, and those until the ball is measured.
-constexpr int steps_to_measurement =
-    1 + static_cast<int>(1000.0 * sil::measured_after_s + 0.5) / physics_step_ms;
+constexpr int steps_to_measurement = 1 + sil::measured_after_ms / physics_step_ms;
 
 double gain_limit_m_s(const Bodies& bodies) {
   return sil::straight_gain_limit_m_s(bodies.robot, {.torque_ceiling_Nm = bodies.torque_ceiling_Nm},
