@@ -69,6 +69,13 @@ TEST(RobotReport, AFastCamerasMotionIsMeasuredOverAboutADecision) {
   }
 }
 
+TEST(RobotReport, SaysWhereKicksEnd) {
+  core::RobotDescription robot = core::forward;
+  EXPECT_NE(robot_report(figures_of(robot)).find("x nowhere, y nowhere"), std::string::npos);
+  robot.field_half_length_mm = 3'900;
+  EXPECT_NE(robot_report(figures_of(robot)).find("x +-3.900 m, y nowhere"), std::string::npos);
+}
+
 TEST(RobotReport, MoreTorqueThanTheTyresHoldIsTold) {
   core::RobotDescription slippery = core::forward;
   EXPECT_EQ(robot_report(figures_of(slippery)).find("more than the tyres hold"), std::string::npos);

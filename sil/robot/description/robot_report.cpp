@@ -76,6 +76,8 @@ RobotFigures figures_of(const core::RobotDescription& robot) {
   }));
 
   figures.camera_rate_Hz = robot.camera_rate_Hz;
+  figures.field_half_length_m = robot.field_half_length_mm / 1e3;
+  figures.field_half_width_m = robot.field_half_width_mm / 1e3;
   figures.camera_latency_ms = robot.camera_latency_ms;
   figures.motion_ms = core::pictures_a_motion(profile) * 1e3 / robot.camera_rate_Hz;
   figures.velocity_step_mm_s = can::um_per_quarter_mm / figures.motion_ms;
@@ -109,6 +111,11 @@ std::string robot_report(const RobotFigures& figures) {
                    figures.velocity_step_mm_s));
   line("slip",
        fmt::format("a wheel that gains more than {:.1f} m/s^2 is taken to have let go", figures.slip_m_s2));
+  const auto border = [](double half_m) {
+    return half_m > 0.0 ? fmt::format("+-{:.3f} m", half_m) : "nowhere";
+  };
+  line("field", fmt::format("kicks end before x {}, y {}", border(figures.field_half_length_m),
+                            border(figures.field_half_width_m)));
   line("overspeed", fmt::format("not driven further from {:.2f} m/s on", figures.overspeed_m_s));
   if (figures.grip_m_s2 < figures.acceleration_m_s2) {
     text += "The torque is more than the tyres hold: wheels slip whenever it is all used.\n";
@@ -134,6 +141,8 @@ void write_robot_json(const RobotFigures& figures, const std::string& source, bo
                                  {"gain_margin", figures.gain_margin},
                                  {"camera_rate_Hz", figures.camera_rate_Hz},
                                  {"camera_latency_ms", figures.camera_latency_ms},
+                                 {"field_half_length_m", figures.field_half_length_m},
+                                 {"field_half_width_m", figures.field_half_width_m},
                                  {"motion_ms", figures.motion_ms},
                                  {"velocity_step_mm_s", figures.velocity_step_mm_s},
                                  {"slip_m_s2", figures.slip_m_s2},

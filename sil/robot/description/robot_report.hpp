@@ -33,6 +33,8 @@ struct RobotFigures {
 
   double camera_rate_Hz = 0.0;
   double camera_latency_ms = 0.0;
+  double field_half_length_m = 0.0;  // 0: no border
+  double field_half_width_m = 0.0;
   double motion_ms = 0.0;           // between the two pictures that tell a velocity
   double velocity_step_mm_s = 0.0;  // that a count of the ball's position makes, on the bus 0.25 mm
 
