@@ -43,8 +43,9 @@ struct Waited {
                                           double to_beat = -std::numeric_limits<double>::infinity());
 
 // Hardly more than that, wherever on the line the robot meets the ball; and the speed below which it is hardly more than
-// `reward`. Measured, not proved: one well-paid contact in 100 gets up to 0.3 more (tests/training/line/leaving_ball_test.cpp),
-// so that what is found by this bound is itself a lower bound.
+// `reward`. Measured, not proved: of the forward's well-paid contacts one in 100 gets up to 0.3 more
+// (tests/training/line/leaving_ball_test.cpp), a defender's up to 1.1, and so do balls that are faster than 3 m/s. What is found
+// by this bound is itself a lower bound.
 [[nodiscard]] double most_aimed_reward(const Bodies& bodies, double robot_speed_m_s,
                                        const sil::BallState& ball, const Waited& waited);
 [[nodiscard]] double least_speed_for_m_s(const Bodies& bodies, double reward, const sil::BallState& ball,
