@@ -7,6 +7,9 @@ import socket
 import struct
 import time
 
+SO_RCVBUFFORCE = 33  # Linux, asm-generic/socket.h
+STANDARD_MASK = socket.CAN_SFF_MASK | socket.CAN_EFF_FLAG | socket.CAN_RTR_FLAG
+
 
 def read_log(file):
     """[(stamp in ms, identifier, payload)] of a candump -L log."""
@@ -25,8 +28,16 @@ def wait_until_still(file):
         time.sleep(0.5)
 
 
-def listening():
+def listening(*identifiers):
+    """A socket that hears these identifiers, or all. The kernel drops the newest frame where a reader is slow."""
     bus = socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
+    if identifiers:
+        wanted = b"".join(struct.pack("=II", identifier, STANDARD_MASK) for identifier in identifiers)
+        bus.setsockopt(socket.SOL_CAN_RAW, socket.CAN_RAW_FILTER, wanted)
+    try:
+        bus.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 64 << 20)
+    except PermissionError:
+        bus.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 64 << 20)
     bus.bind(("vcan0",))
     bus.settimeout(0.05)
     return bus

@@ -286,9 +286,8 @@ class Vcan(files_case.FilesCase):
         process = firmware()
         simulator = program("striker-sil", "kick", "--episodes", "50", "--bus", "can:vcan0", "--answer-timeout", "200")
         time.sleep(3)
-        # Read all the time: a queue that is full drops the newest.
         frames = []
-        with listening() as bus:
+        with listening(WHEEL_COMMAND) as bus:
             reader = threading.Thread(target=lambda: frames.extend(collect(bus, 3)))
             reader.start()
             stop(process)

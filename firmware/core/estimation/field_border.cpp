@@ -4,14 +4,11 @@
 #include <algorithm>
 
 #include "firmware/core/estimation/angle.hpp"
+#include "firmware/core/estimation/magnitude.hpp"
 
 namespace striker::core {
 
 namespace {
-
-constexpr std::int32_t magnitude(std::int32_t value) {
-  return value < 0 ? -value : value;
-}
 
 // Beyond the border, and on the way out.
 constexpr bool is_out(std::int32_t now_um, std::int32_t way_um, std::int32_t border_um) {

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 
+#include "firmware/core/estimation/magnitude.hpp"
+
 namespace striker::core {
 
 namespace {
-
-constexpr std::int32_t magnitude(std::int32_t value) {
-  return value < 0 ? -value : value;
-}
 
 constexpr bool beyond(const Vector& from, const Vector& to, std::int32_t limit_um) {
   return magnitude(to.x - from.x) > limit_um || magnitude(to.y - from.y) > limit_um;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "firmware/core/actions.hpp"
+#include "firmware/core/estimation/magnitude.hpp"
 #include "firmware/core/robot_profile.hpp"
 
 namespace striker::core {
@@ -19,10 +20,6 @@ struct DriveFacts {
 };
 
 namespace detail {
-
-constexpr std::int32_t magnitude(std::int32_t value) {
-  return value < 0 ? -value : value;
-}
 
 constexpr bool drives_overspeed(const RobotProfile& robot, std::int32_t torque_mNm, std::int32_t speed_mm_s) {
   return magnitude(speed_mm_s) > robot.overspeed_mm_s && torque_mNm != 0 &&
