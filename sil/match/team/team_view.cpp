@@ -25,6 +25,8 @@ TeamView view_of(Team team, const RefereeFrame& seen, const Ruling& ruling) {
                 .state = ruling.state,
                 .has_ball = ruling.owner == team,
                 .reset_reason = ruling.reset_reason,
+                .own = {},
+                .opponents = {},
                 .ball_m = own_frame.ball.position_m,
                 .ball_height_m = own_frame.ball.height_m};
   for (std::size_t id = 0; id < robots_a_team; ++id) {
