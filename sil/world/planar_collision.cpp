@@ -112,7 +112,8 @@ std::optional<Vec2> PlanarCollision::Impl::step(const WheelServos& servos) {
   if (!met.empty()) {
     normal = contact_direction(met.front(), robot_, ball_.body);
   }
-  contacts_.collide(ball_.geom.get(), field_.floor.get(), Pair::floor_ball, ball_friction_axis(ball_));
+  contacts_.collide(ball_.geom.get(), field_.floor.get(), Pair::floor_ball,
+                    {.friction_axis = ball_friction_axis(ball_)});
   roll(servos[0], model_.half_axle_m);
   roll(servos[1], -model_.half_axle_m);
   dWorldStep(world_.get(), step_s_);
@@ -123,7 +124,8 @@ std::optional<Vec2> PlanarCollision::Impl::step(const WheelServos& servos) {
 
 void PlanarCollision::Impl::step_ball() {
   dBodyDisable(robot_);
-  contacts_.collide(ball_.geom.get(), field_.floor.get(), Pair::floor_ball, ball_friction_axis(ball_));
+  contacts_.collide(ball_.geom.get(), field_.floor.get(), Pair::floor_ball,
+                    {.friction_axis = ball_friction_axis(ball_)});
   dWorldStep(world_.get(), step_s_);
   contacts_.clear();
 }

@@ -11,6 +11,14 @@ struct Vec2 {
   bool operator==(const Vec2&) const = default;
 };
 
+struct Vec3 {
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+
+  bool operator==(const Vec3&) const = default;
+};
+
 struct Pose {
   double x_m = 0.0;
   double y_m = 0.0;

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "sil/world/planar_world.hpp"
+#include "tests/world/match/drivers.hpp"
 #include "tests/world/play.hpp"
 
 namespace {
@@ -64,12 +65,29 @@ void expect_none_when_warm(AnyWorld world) {
   EXPECT_EQ(allocations, 0U);
 }
 
-TEST(Allocation, AWarmWorldStepsWithoutAny) {
+void count_odes_too() {
   dSetAllocHandler(counted);
   dSetReallocHandler(counted_again);
   dSetFreeHandler(give_back);
+}
+
+TEST(Allocation, AWarmWorldStepsWithoutAny) {
+  count_odes_too();
   expect_none_when_warm(World(kick_world(0.010)));
   expect_none_when_warm(PlanarWorld(0.010));
+}
+
+TEST(Allocation, AMatchStepsWithoutAnyAfterItsFirstSecond) {
+  count_odes_too();
+  const WorldConfig config = match_world(0.010);
+  World world(config);
+  run(world, 1.0);
+  EXPECT_GT(allocations, 0U);
+  allocations = 0;
+  place_for_corner(world);
+  press(world, config, 1.6, 1.0);
+  press(world, config, -1.0, 1.0);
+  EXPECT_EQ(allocations, 0U);
 }
 
 }  // namespace

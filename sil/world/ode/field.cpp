@@ -45,7 +45,6 @@ Field make_field(bool walls) {
     }
   }
   field.robot_ceiling = plane(0.0, 0.0, -1.0, -robot_ceiling_m);
-  field.ball_ceiling = plane(0.0, 0.0, -1.0, -ball_ceiling_m);
   return field;
 }
 

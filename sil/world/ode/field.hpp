@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floor and the walls as collision shapes that never move.
+// The floor, and the walls as robots meet them (for the ball see ball/walls.hpp), as shapes that never move.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,7 @@ namespace striker::sil {
 struct Field {
   GeomHandle floor;  // an unbounded plane
   std::vector<GeomHandle> walls;
-  GeomHandle robot_ceiling;  // both null on an open floor
-  GeomHandle ball_ceiling;
+  GeomHandle robot_ceiling;  // null on an open floor
 };
 
 [[nodiscard]] Field make_field(bool walls);

@@ -24,6 +24,8 @@ constexpr std::array<Material, pair_count> materials = {{
     {.mu = 1.0, .bounce = 0.25, .softness = {.erp = 0.0, .cfm = 1e-7}},            // body_body
     {.mu = 1.0, .bounce = 0.5, .softness = {.erp = 0.15, .cfm = 1e-5}},            // goalkeeper_ball
     {.mu = 1.0, .bounce = 0.8, .softness = {.erp = 0.15, .cfm = 1e-5}},            // body_ball
+    {.mu = 1.0, .bounce = 0.0, .softness = {.erp = 0.0, .cfm = 1e-7}},             // held_wall_ball
+    {.mu = 1.0, .bounce = 0.0, .softness = {.erp = 0.15, .cfm = 1e-5}},            // held_body_ball
 }};
 
 constexpr double bounce_threshold_m_s = 0.01;

@@ -43,9 +43,11 @@ enum class Pair {
   wall_ball,
   body_body,
   goalkeeper_ball,
-  body_ball
+  body_ball,
+  held_wall_ball,  // not of the table: see ball/held.hpp
+  held_body_ball
 };
-inline constexpr std::size_t pair_count = 8;
+inline constexpr std::size_t pair_count = 10;
 
 [[nodiscard]] dSurfaceParameters surface(Pair pair, double step_s);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/world/ode/ode_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -40,6 +41,16 @@ OdeWorld::OdeWorld(double step_s) {
   dWorldSetAngularDampingThreshold(world, 0.0);
 }
 
+void OdeWorld::reserve(std::size_t rows) {
+  // The matrix of the rows' effects on each other, its factors and lists.
+  constexpr std::size_t matrices = 4;
+  dWorldStepReserveInfo memory{};
+  memory.struct_size = sizeof(memory);
+  memory.reserve_factor = dWORLDSTEP_RESERVEFACTOR_DEFAULT;
+  memory.reserve_minimum = static_cast<unsigned>(matrices * rows * rows * sizeof(dReal));
+  dWorldSetStepMemoryReservationPolicy(world_.get(), &memory);
+}
+
 Ball make_ball(dWorldID world, double kept_a_second, double step_s) {
   Ball ball{.body = dBodyCreate(world), .geom = GeomHandle(dCreateSphere(nullptr, ball_radius_m))};
   dMass mass;
@@ -63,6 +74,12 @@ void place(const Ball& ball, const BallState& state) {
                      0.0);
   dBodySetForce(ball.body, 0.0, 0.0, 0.0);
   dBodySetTorque(ball.body, 0.0, 0.0, 0.0);
+}
+
+void drop(const Ball& ball, Vec2 position_m, double height_m) {
+  place(ball, {.position_m = position_m, .velocity_m_s = {}});
+  const double lying_m = dBodyGetPosition(ball.body)[2];
+  dBodySetPosition(ball.body, position_m.x, position_m.y, std::max(height_m, lying_m));
 }
 
 BallState state_of(const Ball& ball) {

@@ -2,6 +2,8 @@
 // What every ODE world here has: gravity, damping, softness, and the ball.
 #pragma once
 
+#include <cstddef>
+
 #include "sil/world/ode/handles.hpp"
 #include "sil/world/physics_constants.hpp"
 #include "sil/world/world.hpp"
@@ -18,6 +20,8 @@ class OdeWorld {
  public:
   // Empty. ODE is initialised once in a process and never closed: worlds come and go at any time.
   explicit OdeWorld(double step_s);
+  // Memory for a step that solves so many rows at once, from the first step on.
+  void reserve(std::size_t rows);
   [[nodiscard]] dWorldID get() const { return world_.get(); }
 
  private:
@@ -34,6 +38,8 @@ struct Ball {
 
 // On the floor, rolling without slip.
 void place(const Ball& ball, const BallState& state);
+// At rest with its centre at this height, and not below where `place` puts it.
+void drop(const Ball& ball, Vec2 position_m, double height_m);
 [[nodiscard]] BallState state_of(const Ball& ball);
 
 // For the friction pyramid under the ball. Along the slip the pyramid's force is that of Coulomb's cone, in

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sil/world/field_specs.hpp"
 #include "sil/world/ode/materials.hpp"
 #include "sil/world/ode/ode_world.hpp"
 #include "sil/world/physics_constants.hpp"
@@ -74,6 +75,14 @@ void add_wheel(Robot& robot, dWorldID world, std::size_t i) {
   robot.hinges[i] = hinge;
 }
 
+void set_on_field(Robot& robot, bool on_field) {
+  const auto set = on_field ? dBodyEnable : dBodyDisable;
+  set(robot.body);
+  set(robot.wheels[0]);
+  set(robot.wheels[1]);
+  robot.on_field = on_field;
+}
+
 void place_body(dBodyID body, const Pose& pose, double height_m) {
   const dQuaternion turned = {std::cos(0.5 * pose.heading_rad), 0.0, 0.0, std::sin(0.5 * pose.heading_rad)};
   dBodySetPosition(body, pose.x_m, pose.y_m, height_m);
@@ -85,6 +94,21 @@ void place_body(dBodyID body, const Pose& pose, double height_m) {
 }
 
 }  // namespace
+
+double distance_squared(dBodyID a, dBodyID b) {
+  const dReal* p = dBodyGetPosition(a);
+  const dReal* q = dBodyGetPosition(b);
+  return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]);
+}
+
+bool may_touch(const Robot& robot, const Ball& ball) {
+  constexpr double reach_m = robot_reach_m + ball_radius_m;
+  return robot.on_field && distance_squared(robot.body, ball.body) <= reach_m * reach_m;
+}
+
+bool may_touch(const Robot& a, const Robot& b) {
+  return a.on_field && b.on_field && distance_squared(a.body, b.body) < 4.0 * robot_reach_m * robot_reach_m;
+}
 
 Robot make_robot(dWorldID world, const RobotSpec& spec) {
   Robot robot;
@@ -109,6 +133,34 @@ void place(Robot& robot, const Pose& pose) {
   set_torque(robot, Wheel::left, 0.0);
   set_torque(robot, Wheel::right, 0.0);
   robot.ball_contact.reset();
+  robot.touched_ball = false;
+  set_on_field(robot, true);
+}
+
+void remove(Robot& robot, const Pose& to) {
+  place(robot, to);
+  set_on_field(robot, false);
+}
+
+void move_instead(const Robot& robot, const Vec3& speeds, double step_s) {
+  const dReal* linear = dBodyGetLinearVel(robot.body);
+  const Vec3 more = speeds - Vec3{linear[0], linear[1], dBodyGetAngularVel(robot.body)[2]};
+  const dReal* body_at = dBodyGetPosition(robot.body);
+  const std::array centre_m = {body_at[0], body_at[1]};
+  dQuaternion turned;
+  dQFromAxisAndAngle(turned, 0.0, 0.0, 1.0, more.z * step_s);
+  for (dBodyID body : {robot.body, robot.wheels[0], robot.wheels[1]}) {
+    const dReal* at = dBodyGetPosition(body);
+    const Vec2 more_m_s{more.x - more.z * (at[1] - centre_m[1]), more.y + more.z * (at[0] - centre_m[0])};
+    const dReal* moves = dBodyGetLinearVel(body);
+    dBodySetLinearVel(body, moves[0] + more_m_s.x, moves[1] + more_m_s.y, moves[2]);
+    const dReal* turns = dBodyGetAngularVel(body);
+    dBodySetAngularVel(body, turns[0], turns[1], turns[2] + more.z);
+    dBodySetPosition(body, at[0] + step_s * more_m_s.x, at[1] + step_s * more_m_s.y, at[2]);
+    dQuaternion attitude;
+    dQMultiply0(attitude, turned, dBodyGetQuaternion(body));
+    dBodySetQuaternion(body, attitude);
+  }
 }
 
 void set_servo(Robot& robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sil/world/ode/handles.hpp"
+#include "sil/world/vec3.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {
@@ -20,14 +21,28 @@ struct Robot {
   std::array<GeomHandle, 2> tyres;
   std::array<double, 2> torques_Nm{};
   std::optional<Vec2> ball_contact;  // in the last step
+  bool touched_ball = false;         // since its owner last asked
+  bool on_field = true;
 };
+
+struct Ball;
 
 // Reaches every point of the robot from its centre of mass, seen from above, however it lies.
 inline constexpr double robot_reach_m = 0.15;
 
+// Seen from above, are they near enough?
+[[nodiscard]] bool may_touch(const Robot& robot, const Ball& ball);
+[[nodiscard]] bool may_touch(const Robot& a, const Robot& b);
+
 [[nodiscard]] Robot make_robot(dWorldID world, const RobotSpec& spec);
 
 void place(Robot& robot, const Pose& pose);
+// There too, but ODE steps it no more.
+void remove(Robot& robot, const Pose& to);
+
+// After a step: has the robot, as one, move at these speeds on the plane {x, y, turn} and be where they take it in
+// the step instead of those that it had.
+void move_instead(const Robot& robot, const Vec3& speeds, double step_s);
 
 void set_servo(Robot& robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm);
 void set_torque(Robot& robot, Wheel wheel, double torque_Nm);
