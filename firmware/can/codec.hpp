@@ -69,6 +69,34 @@ constexpr std::uint64_t put_signals(const Message& message, std::index_sequence<
   return (put_signal<Message, i>(message) | ...);
 }
 
+// The messages of every tick have the CRC's loop where they need it; the others share one, which saves flash.
+template <class Message>
+inline constexpr bool comes_every_tick = layout<Message>.info.period_ms == 1;
+
+[[nodiscard, gnu::noinline]] constexpr bool shared_crc_fits(const Frame& frame, DataIdList list) {
+  return frame.data[0] == protection_crc(frame, list);
+}
+[[gnu::noinline]] constexpr void shared_protect(Frame& frame, DataIdList list, std::uint8_t counter) {
+  protect(frame, list, counter);
+}
+
+template <class Message>
+constexpr bool crc_fits(const Frame& frame) {
+  constexpr DataIdList list = layout<Message>.info.data_ids;
+  return comes_every_tick<Message> ? frame.data[0] == protection_crc(frame, list)
+                                   : shared_crc_fits(frame, list);
+}
+
+template <class Message>
+constexpr void protect_as(Frame& frame, std::uint8_t counter) {
+  constexpr DataIdList list = layout<Message>.info.data_ids;
+  if constexpr (comes_every_tick<Message>) {
+    protect(frame, list, counter);
+  } else {
+    shared_protect(frame, list, counter);
+  }
+}
+
 }  // namespace detail
 
 // Values outside a signal's range are sent as its nearest end.
@@ -84,7 +112,7 @@ template <class Message>
   static_assert(layout<Message>.info.data_ids != unprotected,
                 "this message carries no E2E protection: pack it");
   Frame frame = pack(message);
-  protect(frame, layout<Message>.info.data_ids, counter.next);
+  detail::protect_as<Message>(frame, counter.next);
   counter.next = static_cast<std::uint8_t>((counter.next + 1) % counter_modulus);
   return frame;
 }
@@ -113,7 +141,7 @@ template <class Message>
   if (frame.length != info.length) {
     return Verdict::wrong_length;
   }
-  if (frame.data[0] != protection_crc(frame, info.data_ids)) {
+  if (!detail::crc_fits<Message>(frame)) {
     return Verdict::wrong_crc;
   }
   return unpack(frame, message);

@@ -47,7 +47,7 @@ inline constexpr E2eWindow fast_window = {
 // Of commands, as drives see them: what an old one does beside a controller that says 0 is to be nothing, on the average.
 inline constexpr E2eWindow command_window = {
     .counts = 16, .least_correct = 12, .least_first = 12, .greatest_step = 1, .steps_alone = 100};
-// Pictures, 50 ms apart: a camera that was missed once or twice is not to be missed once more.
+// Pictures and orders, 50 ms apart: a sender that was missed once or twice is not to be missed once more.
 inline constexpr E2eWindow slow_window = {
     .counts = 8, .least_correct = 6, .least_first = 2, .greatest_step = 3, .steps_alone = 6};
 
@@ -55,19 +55,26 @@ constexpr E2eWindow window_for(std::uint32_t period_ms) {
   return period_ms <= 10 ? fast_window : slow_window;
 }
 
-template <E2eWindow limits>
-class E2eMachine {
+constexpr bool is_sound(const E2eWindow& window) {
+  return window.counts <= counter_modulus && window.least_first >= 1 &&
+         window.least_first <= window.least_correct && window.least_correct <= window.counts &&
+         window.least_correct <= window.steps_alone;
+}
+
+// Of whatever window, so that an image holds it once.
+class E2eSequence {
  public:
-  // A frame whose CRC is correct; `differs`, from the last one in any bit. True if its data may be taken.
-  [[gnu::noinline]] bool take_correct(std::uint8_t counter, bool differs) {
+  bool take_correct(const E2eWindow& limits, std::uint8_t counter, bool differs) {
     if (state_ == E2eState::no_data) {
       state_ = E2eState::init;
       last_ = counter;
       follows_ = true;
-      window_ = (1U << (limits.least_correct - limits.least_first)) - 1;
+      window_ = (1U << (limits.least_correct - limits.least_first)) - 1U;
       return false;
     }
     const std::uint32_t advance = follows_ ? (counter - last_) & (counter_modulus - 1U) : 1;
+    // After a full window this step leaves just enough.
+    const std::uint32_t forgiven_step = limits.counts - limits.least_correct + 1U;
     last_ = counter;
     follows_ = true;
     if (advance == 0 ? differs : advance > forgiven_step) {
@@ -77,16 +84,15 @@ class E2eMachine {
       window_ = advance == 0 ? window_ << 1U : window_ << advance | 1U;
       suspect_steps_ -= advance != 0 && suspect_steps_ != 0 ? 1U : 0U;
     }
-    judge();
+    judge(limits);
     return advance >= 1 && advance <= limits.greatest_step && state_ == E2eState::valid;
   }
 
-  void take_wrong() {
+  [[gnu::noinline]] void take_wrong(const E2eWindow& limits) {
     window_ <<= 1U;
-    judge();
+    judge(limits);
   }
 
-  // Nothing came within the message's time-out: what comes next has to earn its belief anew.
   void forget() {
     window_ = 0;
     follows_ = false;
@@ -96,15 +102,8 @@ class E2eMachine {
   [[nodiscard]] E2eState state() const { return state_; }
 
  private:
-  static constexpr std::uint32_t mask = (1U << limits.counts) - 1;
-  // After a full window this one leaves just enough.
-  static constexpr std::uint32_t forgiven_step = limits.counts - limits.least_correct + 1;
-  static_assert(limits.counts <= counter_modulus && limits.least_first >= 1 &&
-                limits.least_first <= limits.least_correct && limits.least_correct <= limits.counts &&
-                limits.least_correct <= limits.steps_alone);
-
-  void judge() {
-    window_ &= mask;
+  void judge(const E2eWindow& limits) {
+    window_ &= (1U << limits.counts) - 1U;
     const bool enough = suspect_steps_ == 0 && ones(window_) >= limits.least_correct;
     if (enough && state_ != E2eState::no_data) {
       state_ = E2eState::valid;
@@ -126,6 +125,27 @@ class E2eMachine {
   std::uint8_t last_ = 0;
   bool follows_ = false;  // there is a last one to compare with: none from before a silence
   E2eState state_ = E2eState::no_data;
+};
+
+template <E2eWindow limits>
+class E2eMachine {
+ public:
+  // A frame whose CRC is correct; `differs`, from the last one in any bit. True if its data may be taken.
+  bool take_correct(std::uint8_t counter, bool differs) {
+    return sequence_.take_correct(window, counter, differs);
+  }
+  void take_wrong() { sequence_.take_wrong(window); }
+
+  // Nothing came within the message's time-out: what comes next has to earn its belief anew.
+  void forget() { sequence_.forget(); }
+
+  [[nodiscard]] E2eState state() const { return sequence_.state(); }
+
+ private:
+  static_assert(is_sound(limits));
+  static constexpr E2eWindow window = limits;
+
+  E2eSequence sequence_;
 };
 
 }  // namespace striker::can

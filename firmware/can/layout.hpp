@@ -68,10 +68,10 @@ struct Signal {
   std::span<const NamedValue> values = {};
 };
 
-enum class Node : std::uint8_t { controller, drives, operator_, simulator, vision };
+enum class Node : std::uint8_t { controller, drives, operator_, simulator, team, vision };
 
-inline constexpr std::array<std::string_view, 5> node_names = {"Controller", "Drives", "Operator",
-                                                               "Simulator", "Vision"};
+inline constexpr std::array<std::string_view, 6> node_names = {"Controller", "Drives", "Operator",
+                                                               "Simulator",  "Team",   "Vision"};
 
 // What a bus analysis needs to know beyond the period (see sil/budget/response_time.hpp).
 struct Traffic {

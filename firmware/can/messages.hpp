@@ -12,8 +12,8 @@
 //
 // `protocol_version` rises with every change that makes a frame of the old version mean something else, or
 // makes it refused: a signal moved, rescaled or given another range, another data ID, identifier or length, a
-// message that a peer has to send or to await. A message or a named value that old peers may ignore does not
-// raise it.
+// message that a peer has to send or to await. A message, a named value, or a signal in free bits that old
+// peers may ignore does not raise it.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,7 @@
 #include "firmware/can/messages/drives.hpp"
 #include "firmware/can/messages/lockstep.hpp"
 #include "firmware/can/messages/operator.hpp"
+#include "firmware/can/messages/team.hpp"
 #include "firmware/can/messages/telemetry.hpp"
 #include "firmware/can/messages/vision.hpp"
 
@@ -32,15 +33,23 @@ namespace striker::can {
 
 inline constexpr std::int32_t protocol_version = 4;
 
-using Messages =
-    std::tuple<EmergencyStop, FaultReport, Sync, ModeCommand, WheelCommand, WheelState, VisionPose,
-               VisionBall, Challenge, Status, Safety, Decision, Timing, Heartbeat, Version, EndOfTick>;
+using Messages = std::tuple<EmergencyStop, FaultReport, Sync, ModeCommand, WheelCommand, WheelState,
+                            VisionPose, VisionBall, WheelOrder, MotionOrder, Challenge, Status, Safety,
+                            Decision, Timing, Heartbeat, Version, EndOfTick>;
 
 // Calls visit(layout) for every message, in the order of the table.
 template <class Visit>
 constexpr void for_each_layout(Visit visit) {
   [&]<class... Message>(const std::tuple<Message...>*) {
     (visit(layout<Message>), ...);
+  }(static_cast<const Messages*>(nullptr));
+}
+
+// Whether it holds of any message's layout; asks no further then.
+template <class Predicate>
+[[nodiscard]] constexpr bool any_layout(Predicate holds) {
+  return [&]<class... Message>(const std::tuple<Message...>*) {
+    return (holds(layout<Message>) || ...);
   }(static_cast<const Messages*>(nullptr));
 }
 

@@ -37,6 +37,21 @@ void request(const ModeCommand& command, bool in_order, core::Percepts& percepts
   }
 }
 
+// What a team's frame orders, if it is sound by itself.
+Verdict check_order(const Frame& frame, core::TeamOrder& order) {
+  order = {.is_motion = is<MotionOrder>(frame), .age_ticks = frame.age_ms};
+  if (order.is_motion) {
+    MotionOrder motion;
+    const Verdict verdict = receive(frame, motion);
+    order.number = static_cast<std::uint8_t>(motion.number);
+    return verdict;
+  }
+  WheelOrder wheels;
+  const Verdict verdict = receive(frame, wheels);
+  order.speeds = {wheels.left_mm_s, wheels.right_mm_s};
+  return verdict;
+}
+
 }  // namespace
 
 void IgnoredFrames::count(Verdict verdict) {
@@ -72,6 +87,8 @@ void Receiver::take_frame(const Frame& frame, std::uint32_t tick, core::Percepts
                        .age_ticks = frame.age_ms};
     }
     percepts.invalid.vision = ball_.invalid() || percepts.invalid.vision;
+  } else if (is<WheelOrder>(frame) || is<MotionOrder>(frame)) {
+    take_order(frame, tick, percepts);
   } else if (is<ModeCommand>(frame)) {
     ModeCommand command;
     if (operators(receive(frame, command), percepts)) {
@@ -83,6 +100,17 @@ void Receiver::take_frame(const Frame& frame, std::uint32_t tick, core::Percepts
   } else if (is<Status>(frame)) {
     percepts.second_controller = true;
   }
+}
+
+void Receiver::take_order(const Frame& frame, std::uint32_t tick, core::Percepts& percepts) {
+  constexpr static FrameSequence::Rules rules = {.window = slow_window,
+                                                 .timeout_ticks = core::order_timeout_ticks};
+  core::TeamOrder order;
+  const Verdict found = check_order(frame, order);
+  if (accepted(orders_.take(rules, frame, tick, found))) {
+    percepts.order = order;
+  }
+  percepts.invalid.orders = orders_.invalid();
 }
 
 // An operator's frames are events: any counter will do but for a renewal, and what is wrong is remembered.

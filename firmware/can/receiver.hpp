@@ -6,10 +6,10 @@
 //   StrikerDrives drives;
 //   const core::Percepts percepts = receiver.take(frames, tick, drives);
 //
-// An operator's frames count one by one, whatever their counter; everything else is believed as a sequence
-// (e2e_state.hpp). What only a controller sends, on a bus that does not echo, comes from a second one. Other
-// identifiers are none of its business. Cost: a CRC over up to 8 bytes for each frame that is meant for
-// the controller.
+// A team's orders of either kind are one sequence. An operator's frames count one by one, whatever their counter;
+// everything else is believed as a sequence (e2e_state.hpp). What only a controller sends, on a bus that does not echo,
+// comes from a second one. Other identifiers are none of its business. Cost: a CRC over up to 8 bytes for each frame
+// that is meant for the controller.
 #pragma once
 
 #include <algorithm>
@@ -64,6 +64,7 @@ class Receiver {
     }
     percepts.invalid.wheels = drives.invalid();
   }
+  void take_order(const Frame& frame, std::uint32_t tick, core::Percepts& percepts);
   void take_frame(const Frame& frame, std::uint32_t tick, core::Percepts& percepts);
   bool operators(Verdict verdict, core::Percepts& percepts);
   bool accepted(Verdict verdict) {
@@ -73,6 +74,7 @@ class Receiver {
 
   MessageReceiver<VisionPose> pose_;
   MessageReceiver<VisionBall> ball_;
+  FrameSequence orders_;  // of both of the team's messages
   // Of mode commands: a renewal alone asks for nothing that is safe, and one that is repeated for ever renews nothing.
   E2eMachine<slow_window> operator_order_;
   IgnoredFrames ignored_;

@@ -112,7 +112,8 @@ void Reporter::report_status(std::uint32_t tick, const core::Actions& actions, c
                          .out_of_range = ignored.out_of_range,
                          .vision_ready = static_cast<std::int32_t>(actions.vision_ready),
                          .wheels_ready = static_cast<std::int32_t>(actions.wheels_ready),
-                         .kick_over = static_cast<std::int32_t>(actions.kick_over)},
+                         .kick_over = static_cast<std::int32_t>(actions.kick_over),
+                         .orders = static_cast<std::int32_t>(actions.orders)},
                   status_counter_));
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "firmware/core/orders/standing_order.hpp"
 #include "firmware/core/percepts.hpp"
 #include "firmware/core/state.hpp"
 #include "firmware/core/supervision/consent.hpp"
@@ -25,7 +26,7 @@ struct DriveCommand {
 };
 
 struct Decision {
-  std::uint32_t number = 0;  // since arming, from 0
+  std::uint32_t number = 0;  // from 0, since arming or since the order that began the motion
   std::uint8_t action = 0;
   bool extrapolated = false;      // decided without a new picture
   bool provisional = false;       // a picture that comes within the decision window makes it again
@@ -42,10 +43,11 @@ struct Actions {
   Faults faults = 0;             // all of them
   std::uint32_t fault_tick = 0;  // in which it was latched
   std::uint32_t uptime_ticks = 0;
-  OpenRequest challenge;      // in the tick in which something was asked for
-  bool vision_ready = false;  // pictures are fresh, and good for a velocity: arming needs that
-  bool wheels_ready = false;  // wheel speeds are fresh
-  bool kick_over = false;     // as the last decision said, while armed
+  OpenRequest challenge;                 // in the tick in which something was asked for
+  bool vision_ready = false;             // pictures are fresh, and good for a velocity: arming needs that
+  bool wheels_ready = false;             // wheel speeds are fresh
+  bool kick_over = false;                // as the last decision said, while armed
+  OrderState orders = OrderState::none;  // while armed
 };
 
 }  // namespace striker::core

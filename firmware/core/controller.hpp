@@ -21,7 +21,8 @@
 // Arming wants state standby, pictures since the last disarm that tell a velocity, fresh wheel speeds, and consent in
 // two steps (consent.hpp). It lasts `armed_limit_ticks` and is prolonged by a renewal. Disarming, not arming, forgets the
 // pictures: so those that arming waits for give the first decision its velocity, and nothing from before the
-// disarm can. A port's stop is a disarm in every respect.
+// disarm can. A port's stop is a disarm in every respect. Armed, the policy acts, or what a team orders
+// (orders/standing_order.hpp).
 //
 // The state is sealed between two steps (seal.hpp): a bit of it that changes by itself is found before it is used.
 // Cost: instructions a step on every core are in firmware/policy/README.md; a decision's step is the longest.
@@ -37,6 +38,7 @@
 #include "firmware/core/estimation/field_border.hpp"
 #include "firmware/core/estimation/plausibility.hpp"
 #include "firmware/core/estimation/relative_state.hpp"
+#include "firmware/core/orders/standing_order.hpp"
 #include "firmware/core/pending_torque.hpp"
 #include "firmware/core/percepts.hpp"
 #include "firmware/core/pilot.hpp"
@@ -44,6 +46,7 @@
 #include "firmware/core/seal.hpp"
 #include "firmware/core/supervision/command_check.hpp"
 #include "firmware/core/supervision/consent.hpp"
+#include "firmware/core/supervision/kept_state.hpp"
 #include "firmware/core/supervision/supervisor.hpp"
 #include "firmware/core/supervision/vigilance.hpp"
 #include "firmware/core/wheel_loop.hpp"
@@ -89,12 +92,7 @@ class Controller {
   // forgets it; and so is what only a reboot clears. Memory that changed by itself is found here too.
   void begin_anew() {
     require_sound_state();
-    const Faults faults = now_.supervisor.faults & (lasting_faults | set_of(Fault::emergency_stop));
-    *this = Controller(now_.robot, now_.consent.next_seed());
-    if (faults != 0) {
-      now_.supervisor = latch(now_.supervisor, faults);
-      seal_ = seal_of(now_);
-    }
+    begin_with(now_.supervisor.faults & (lasting_faults | set_of(Fault::emergency_stop)));
   }
 
   [[nodiscard]] State state() const { return now_.supervisor.state; }
@@ -103,35 +101,8 @@ class Controller {
   [[nodiscard]] const PilotType& pilot() const { return memory_.state.pilot; }
 
  private:
-  // What a tick changes. Without padding, and sealed whole.
-  struct Now {
-    constexpr Now(const RobotProfile& profile, std::uint32_t seed) : robot(profile), consent(seed) {}
-
-    RobotProfile robot;
-    std::uint32_t tick = 0;
-    std::uint32_t boot_tick = 0;
-    std::uint32_t fault_tick = 0;
-    std::uint32_t has_velocity = 0;  // of the estimator
-    std::uint32_t new_picture = 0;   // in this tick
-    SelfTest self_test = SelfTest::running;
-    Supervisor supervisor;
-    Consent consent;
-    Vigilance vigilance;
-    WheelPlausibility plausibility;
-    Odometry odometry;
-    DecisionClock clock;
-    WheelLoops loops;
-    WheelSpeeds measured;
-    WheelSpeeds set_point;  // the pilot's
-    std::uint32_t kick_over = 0;
-    WheelTorques torque;  // of the last command
-    typename PilotType::WeightsCheck weights;
-  };
-  // What a picture or a decision changes: sealed apart, as most ticks do neither.
-  struct Memory {
-    Estimator estimator;
-    PilotType pilot;
-  };
+  using Now = KeptEachTick<PilotType>;
+  using Memory = KeptMemory<PilotType>;
 
   // Commands take time: what is on its way is part of the state. Otherwise it stays empty, and is not looked at.
   [[nodiscard]] bool is_late() const { return now_.robot.command_delay_ticks != 0; }
@@ -142,7 +113,16 @@ class Controller {
     }
   }
 
-  // Nothing of it can be believed, the robot's limits included, but that it has to stand. Apart, for the stack's sake.
+  // Apart, for the stack's sake, as what follows.
+  [[gnu::noinline]] void begin_with(Faults faults) {
+    *this = Controller(now_.robot, now_.consent.next_seed());
+    if (faults != 0) {
+      now_.supervisor = latch(now_.supervisor, faults);
+      seal_ = seal_of(now_);
+    }
+  }
+
+  // Nothing of it can be believed, the robot's limits included, but that it has to stand.
   [[gnu::noinline, gnu::cold]] void forget_corrupt_state() {
     const Supervisor corrupt = {
         .state = State::fault,
@@ -212,6 +192,7 @@ class Controller {
       }
     }
     now_.odometry.advance(now_.robot, now_.tick);
+    now_.orders.step(now_.robot, now_.tick, percepts, now_.set_point);
     now_.new_picture = 0;
     if (percepts.robot || percepts.ball) {
       take_picture(percepts);
@@ -254,6 +235,7 @@ class Controller {
       now_.plausibility.restart();
       now_.set_point = {};
       now_.kick_over = 0;
+      now_.orders = {};
     }
     if (next.state != now_.supervisor.state) {
       now_.consent.close();
@@ -265,6 +247,14 @@ class Controller {
     if (now_.supervisor.state != State::active) {
       return std::nullopt;
     }
+    if (!now_.orders.lets_policy_act()) {
+      now_.kick_over = 0;
+      return std::nullopt;
+    }
+    const bool begins = now_.orders.take_beginning();
+    if (begins) {
+      now_.clock.make_due(now_.tick);
+    }
     const DecisionDue due =
         now_.clock.at(now_.tick, now_.new_picture != 0, decides_on_each_picture(now_.robot));
     if (due == DecisionDue::no) {
@@ -273,6 +263,9 @@ class Controller {
     Memory& memory = open_memory();
     if (now_.supervisor.state != State::active) {
       return std::nullopt;  // the memory was corrupt
+    }
+    if (begins) {
+      memory.pilot.reset();
     }
     const Estimate seen = led_through_delay(now_.robot, memory.estimator.at(now_.tick, now_.odometry),
                                             pending_.state.speed_change_mm_s(now_.robot));
@@ -285,7 +278,8 @@ class Controller {
 
   DriveCommand drive(const Conditions& conditions) {
     DriveCommand command = {};
-    if (now_.supervisor.state == State::active && now_.clock.started()) {
+    const bool begun = now_.clock.started() || now_.orders.state() != OrderState::none;
+    if (now_.supervisor.state == State::active && begun) {
       command = checked({.torque = now_.loops.step(now_.robot, now_.set_point, now_.measured, pending_.state),
                          .set_point = now_.set_point},
                         conditions);
@@ -316,7 +310,9 @@ class Controller {
     actions.challenge = now_.consent.opened_at(now_.tick);
     actions.vision_ready = conditions.vision_ready;
     actions.wheels_ready = conditions.wheels_fresh;
-    actions.kick_over = now_.supervisor.state == State::active && now_.kick_over != 0;
+    const bool active = now_.supervisor.state == State::active;
+    actions.kick_over = active && now_.kick_over != 0;
+    actions.orders = active ? now_.orders.state() : OrderState::none;
   }
 
   Now now_;

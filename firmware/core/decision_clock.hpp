@@ -26,6 +26,12 @@ class DecisionClock {
   // At arming: waits for the first picture.
   void restart() { *this = {}; }
 
+  // A motion was ordered: its first decision is due in this tick, whatever the phase, and the next ones follow it.
+  void make_due(std::uint32_t tick) {
+    awaits_first_picture_ = 0;
+    decision_tick_ = tick - decision_period_ticks;
+  }
+
   // The first picture since `restart` has come.
   [[nodiscard]] bool started() const { return awaits_first_picture_ == 0; }
 

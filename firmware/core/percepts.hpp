@@ -18,6 +18,10 @@ namespace striker::core {
 inline constexpr std::uint32_t vision_timeout_ticks = 150;
 inline constexpr std::uint32_t wheel_timeout_ticks = 20;
 
+// For how long an order is good, and how many numbers motions have.
+inline constexpr std::uint32_t order_timeout_ticks = 150;
+inline constexpr std::uint8_t motion_numbers = 4;
+
 // A camera numbers its pictures 0 to 15, and again; robot and ball of one picture share the number.
 inline constexpr std::int32_t picture_numbers = 16;
 
@@ -41,6 +45,14 @@ struct WheelSpeeds {
   bool operator==(const WheelSpeeds&) const = default;
 };
 
+// What a team told the robot: wheel speeds, or a motion, of which there is the kick.
+struct TeamOrder {
+  bool is_motion = false;
+  std::uint8_t age_ticks = 0;  // since it was received
+  std::uint8_t number = 0;     // of the motion, below `motion_numbers`
+  WheelSpeeds speeds = {};
+};
+
 // Whole words: they are part of the sealed state (seal.hpp).
 enum class Order : std::uint32_t { none, arm, clear };
 
@@ -62,6 +74,7 @@ struct InvalidMessages {
   bool wheels = false;     // wheel states come, but not in sequence, or wrong
   bool vision = false;     // the same of pictures
   bool operators = false;  // wrong frames under an operator's identifier
+  bool orders = false;     // the team's orders come, but not in sequence, or wrong
 };
 
 struct Percepts {
@@ -70,6 +83,7 @@ struct Percepts {
   std::optional<WheelSpeeds> wheels;
   std::uint8_t wheels_age_ticks = 0;  // since they were received
   bool drives_cut = false;            // the drives say that they hold the torque at 0; with `wheels`
+  std::optional<TeamOrder> order;     // of the team
   bool emergency_stop = false;
   bool second_controller = false;  // a frame of another controller came
   InvalidMessages invalid;

@@ -16,19 +16,15 @@ namespace striker::safety {
 
 template <can::DriveProtocol Drives>
 [[nodiscard]] constexpr bool may_send(const can::Frame& frame) {
-  bool in_table = false;
-  bool listed = false;
-  can::for_each_layout([&](const auto& message) {
-    const bool same = message.info.id == frame.id;
-    in_table = in_table || same;
-    listed = listed ||
-             (same && message.info.sender == can::Node::controller && message.info.length == frame.length);
+  const bool listed = can::any_layout([&](const auto& message) {
+    return message.info.sender == can::Node::controller && message.info.id == frame.id &&
+           message.info.length == frame.length;
   });
-  if (in_table) {
-    return listed;
-  }
-  return frame.length <= frame.data.size() &&
-         std::find(Drives::sends.begin(), Drives::sends.end(), frame.id) != Drives::sends.end();
+  const auto in_table = [&] {
+    return can::any_layout([&](const auto& message) { return message.info.id == frame.id; });
+  };
+  return listed || (frame.length <= frame.data.size() && !in_table() &&
+                    std::find(Drives::sends.begin(), Drives::sends.end(), frame.id) != Drives::sends.end());
 }
 
 }  // namespace striker::safety

@@ -163,7 +163,22 @@ TEST(Codec, AllThatCanMoveTheRobotIsProtected) {
   EXPECT_TRUE(is_protected<EmergencyStop>() && is_protected<Sync>() && is_protected<ModeCommand>() &&
               is_protected<WheelCommand>() && is_protected<WheelState>() && is_protected<VisionPose>() &&
               is_protected<VisionBall>() && is_protected<Status>() && is_protected<FaultReport>() &&
-              is_protected<Challenge>() && is_protected<Safety>() && is_protected<EndOfTick>());
+              is_protected<Challenge>() && is_protected<Safety>() && is_protected<EndOfTick>() &&
+              is_protected<WheelOrder>() && is_protected<MotionOrder>());
+}
+
+// Bytes that were reckoned by hand, the CRC by another program.
+TEST(Codec, AnOrdersBytesAreTheseEverywhere) {
+  SendCounter team{5};
+  const Frame wheels = send(WheelOrder{.left_mm_s = 300, .right_mm_s = -200}, team);
+  EXPECT_EQ(wheels,
+            (Frame{.id = 0x084, .length = 6, .data = {0x95, 0x05, 0x2C, 0x01, 0x38, 0xFF, 0x00, 0x00}}));
+  team.next = 11;
+  const Frame motion = send(
+      MotionOrder{.number = 2, .motion = 0, .x_quarter_mm = -6000, .y_quarter_mm = 1000, .heading = 16384},
+      team);
+  EXPECT_EQ(motion,
+            (Frame{.id = 0x088, .length = 8, .data = {0x21, 0x2B, 0x90, 0xE8, 0xE8, 0x03, 0x00, 0x40}}));
 }
 
 }  // namespace

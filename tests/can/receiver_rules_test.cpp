@@ -16,7 +16,7 @@ class ReceiverRules : public testing::Test {
  protected:
   Receiver receiver;
   StrikerDrives drives;
-  SendCounter pose, ball, wheels, mode, stop;
+  SendCounter pose, ball, wheels, mode, stop, team;
   std::uint32_t tick = 1000;
 
   core::Percepts take(const std::vector<Frame>& frames) { return receiver.take(frames, ++tick, drives); }
@@ -163,6 +163,39 @@ TEST_F(ReceiverRules, AnInvalidMessageIsToldWhateverElseComes) {
     take({wrong, picture_of_ball()});
   }
   EXPECT_TRUE(take({picture_of_robot(), picture_of_ball()}).invalid.vision);
+}
+
+TEST_F(ReceiverRules, BothKindsOfOrdersAreOneSequence) {
+  for (int i = 0; i < 9; ++i) {
+    Frame wheels_order = send(WheelOrder{.left_mm_s = 300, .right_mm_s = -200}, team);
+    wheels_order.age_ms = 7;
+    const core::Percepts wheels_ordered = take({wheels_order});
+    ASSERT_EQ(wheels_ordered.order.has_value(), i > 0) << "as any message that is not critical at power-on";
+    if (i > 0) {
+      EXPECT_FALSE(wheels_ordered.order->is_motion);
+      EXPECT_EQ(wheels_ordered.order->speeds, (core::WheelSpeeds{300, -200}));
+      EXPECT_EQ(wheels_ordered.order->age_ticks, 7);
+    }
+    const core::Percepts motion_ordered = take({send(MotionOrder{.number = i % 4}, team)});
+    ASSERT_EQ(motion_ordered.order.has_value(), i > 0);
+    if (i > 0) {
+      EXPECT_TRUE(motion_ordered.order->is_motion);
+      EXPECT_EQ(motion_ordered.order->number, i % 4);
+    }
+  }
+  EXPECT_EQ(receiver.ignored().wrong_counter, 2);
+}
+
+TEST_F(ReceiverRules, AnotherKindOfOrderWithTheSameCounterIsAContradiction) {
+  for (int i = 0; i < 9; ++i) {
+    take({send(WheelOrder{}, team)});
+  }
+  SendCounter same = team;
+  const core::Percepts percepts = take({send(WheelOrder{}, team)});
+  ASSERT_TRUE(percepts.order && !percepts.invalid.orders);
+  const core::Percepts contradicted = take({send(MotionOrder{}, same)});
+  EXPECT_FALSE(contradicted.order);
+  EXPECT_TRUE(contradicted.invalid.orders);
 }
 
 TEST_F(ReceiverRules, AnotherControllersFramesAreNoticed) {

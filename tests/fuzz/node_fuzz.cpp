@@ -54,6 +54,19 @@ class NodeRig {
         world_.camera_error_quarter_mm = bytes_.i16();
         return;
       default:
+        return order_as_team(operation);
+    }
+  }
+
+  void order_as_team(std::uint8_t operation) {
+    switch (operation) {
+      case letter('b'): {
+        const std::int32_t left_mm_s = bytes_.i16();
+        return put(can::send(can::WheelOrder{.left_mm_s = left_mm_s, .right_mm_s = bytes_.i16()}, team_));
+      }
+      case letter('u'):
+        return put(can::send(can::MotionOrder{.number = bytes_.u8() % 4}, team_));
+      default:
         return attack(operation);
     }
   }
@@ -158,6 +171,7 @@ class NodeRig {
   can::FrameList sent_;
   can::Challenge challenge_;
   can::SendCounter stop_;
+  can::SendCounter team_;
   std::array<can::Frame, 64> seen_{};  // of the honest world, for replay
   std::size_t next_seen_ = 0;
 };

@@ -59,6 +59,8 @@ TEST(FrameFault, WrongCrcAndLengthAreIgnoredWholeAndCounted) {
   expect_every_fault_ignored(rig, can::WheelState{.left_mm_s = 8000, .right_mm_s = 8000});
   expect_every_fault_ignored(rig, can::VisionPose{.frame = 9, .x_quarter_mm = 30000});
   expect_every_fault_ignored(rig, can::VisionBall{.frame = 9, .x_quarter_mm = 30000});
+  expect_every_fault_ignored(rig, can::WheelOrder{.left_mm_s = 500, .right_mm_s = 500});
+  expect_every_fault_ignored(rig, can::MotionOrder{.number = 1});
 }
 
 TEST(FrameFault, ARepeatedCounterIsIgnoredAndCounted) {

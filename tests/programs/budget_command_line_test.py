@@ -29,7 +29,7 @@ class BudgetCommandLine(files_case.FilesCase):
         self.assertIn("every deadline is met", result.stdout)
         with open(self.file("a.json"), encoding="utf-8") as stream:
             summary = json.load(stream)
-        self.assertEqual(len(summary["messages"]), 15)
+        self.assertEqual(len(summary["messages"]), 17)
         self.assertEqual(summary["missed"], [])
         self.assertTrue(0.3 < summary["utilisation"] < 0.5)
         decision = summary["decision"]
@@ -41,8 +41,9 @@ class BudgetCommandLine(files_case.FilesCase):
     def test_at_500_kbit_s_the_misses_are_named(self):
         result = budget("--bitrate", "500000")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("deadline missed by WheelCommand, WheelState, VisionPose, VisionBall", result.stdout)
-        self.assertEqual(sum(line.endswith("MISSED") for line in result.stdout.splitlines()), 4)
+        self.assertIn("deadline missed by WheelCommand, WheelState, VisionPose, VisionBall, WheelOrder, MotionOrder, Status",
+                      result.stdout)
+        self.assertEqual(sum(line.endswith("MISSED") for line in result.stdout.splitlines()), 7)
 
     def test_at_250_kbit_s_there_is_no_bound(self):
         result = budget("--bitrate", "250000")

@@ -4,6 +4,7 @@
 
 #include "firmware/can/layout.hpp"
 #include "firmware/core/decision_clock.hpp"
+#include "firmware/core/orders/standing_order.hpp"
 #include "firmware/core/state.hpp"
 #include "firmware/core/tick.hpp"
 
@@ -11,6 +12,8 @@ namespace striker::can {
 
 inline constexpr auto state_values = named_values(core::state_names);
 inline constexpr auto fault_values = named_values(core::fault_names);
+inline constexpr auto order_state_values = named_values(core::order_state_names);
+static_assert(last_of(order_state_values) == static_cast<std::int32_t>(core::OrderState::lapsed));
 
 // In unsigned 16-bit measured fields: no measurement.
 inline constexpr std::int32_t not_available = 0xFFFF;
@@ -54,10 +57,11 @@ struct Status {
   std::int32_t vision_ready = 0;  // 1: two fresh pictures: the controller could be armed
   std::int32_t wheels_ready = 0;  // 1: the wheel speeds are fresh
   std::int32_t kick_over = 0;  // 1: armed, but the kick has had its decisions: the wheels are told to stand
+  std::int32_t orders = 0;     // core::OrderState, while armed
 };
 
 template <>
-inline constexpr auto layout<Status> = Layout<Status, 9>{
+inline constexpr auto layout<Status> = Layout<Status, 10>{
     .info = {.name = "Status",
              .id = 0x100,
              .length = 8,
@@ -90,7 +94,13 @@ inline constexpr auto layout<Status> = Layout<Status, 9>{
          {.name = "out_of_range", .field = &Status::out_of_range, .first_bit = 48, .bits = 8, .maximum = 255},
          {.name = "vision_ready", .field = &Status::vision_ready, .first_bit = 56, .bits = 1, .maximum = 1},
          {.name = "wheels_ready", .field = &Status::wheels_ready, .first_bit = 57, .bits = 1, .maximum = 1},
-         {.name = "kick_over", .field = &Status::kick_over, .first_bit = 58, .bits = 1, .maximum = 1}}}};
+         {.name = "kick_over", .field = &Status::kick_over, .first_bit = 58, .bits = 1, .maximum = 1},
+         {.name = "orders",
+          .field = &Status::orders,
+          .first_bit = 59,
+          .bits = 2,
+          .maximum = last_of(order_state_values),
+          .values = order_state_values}}}};
 
 // What the gate holds back at present: bits of `Safety::limits`.
 inline constexpr std::uint32_t limit_torque = 1U << 0U;
@@ -129,7 +139,7 @@ inline constexpr auto layout<Safety> = Layout<Safety, 4>{
                   .maximum = 255}}}};
 
 struct Decision {
-  std::int32_t number = 0;  // since arming, low 16 bits
+  std::int32_t number = 0;  // since arming, or since the order that began the motion, low 16 bits
   std::int32_t action = 0;
   std::int32_t extrapolated = 0;  // 1: decided without a new picture
   std::int32_t best_q_256th = 0;  // Q of the action, in 1/256; saturates
@@ -144,7 +154,7 @@ inline constexpr auto layout<Decision> = Layout<Decision, 5>{
              .sender = Node::controller,
              .period_ms = core::decision_period_ms,
              .comment = "What the Q network chose; a provisional choice waits for a late picture.",
-             .traffic = on_changes(core::decision_period_ticks - 2 * core::decision_window_ticks - 1, 2)},
+             .traffic = on_changes(1, 3)},
     .signals = {
         {{.name = "number", .field = &Decision::number, .first_bit = 0, .bits = 16, .maximum = 65535},
          {.name = "action", .field = &Decision::action, .first_bit = 16, .bits = 4, .maximum = 15},

@@ -115,6 +115,7 @@ void add_replays(Catalogue& all) {
 void add_forgeries(Catalogue& all) {
   all.add("WheelState as WheelCommand", masquerade, masqueraded<can::WheelState, can::WheelCommand>());
   all.add("VisionBall as VisionPose", masquerade, masqueraded<can::VisionBall, can::VisionPose>());
+  all.add("WheelState as WheelOrder", masquerade, masqueraded<can::WheelState, can::WheelOrder>());
   all.add("Status as ModeCommand", masquerade, masqueraded<can::Status, can::ModeCommand>());
   for (const std::uint32_t bits : {1U, 2U, 3U}) {
     all.add(fmt::format("{} wrong bits in every frame", bits), flip_bits, count(bits));
@@ -124,6 +125,8 @@ void add_forgeries(Catalogue& all) {
   all.add("babble on ModeCommand", babble, babbled<can::ModeCommand>(8));
   all.add("babble on WheelCommand", babble, babbled<can::WheelCommand>(8));
   all.add("babble on WheelState", babble, babbled<can::WheelState>(8));
+  all.add("babble on WheelOrder", babble, babbled<can::WheelOrder>(8));
+  all.add("babble on MotionOrder", babble, babbled<can::MotionOrder>(8));
 }
 
 void add_foreign(Catalogue& all) {

@@ -51,10 +51,11 @@ class Invariants {
     const bool goes_back = tick.number - before_tick_ > core::greatest_jump_ticks;
     const std::uint32_t elapsed = !begun_ || goes_back ? 0 : tick.number - before_tick_;
     if (tick.restart) {
-      wheels_age_ = vision_age_ = challenge_age_ = stop_age_ = never;
+      wheels_age_ = vision_age_ = order_age_ = challenge_age_ = stop_age_ = never;
       counter_known_ = false;
     }
-    for (std::uint32_t* age : {&wheels_age_, &vision_age_, &stop_age_, &challenge_age_, &armed_age_}) {
+    for (std::uint32_t* age :
+         {&wheels_age_, &vision_age_, &order_age_, &stop_age_, &challenge_age_, &armed_age_}) {
       *age = std::min(*age + std::min(elapsed, never), never);
     }
     arm_confirmed_ = clear_confirmed_ = stopped_ = false;
@@ -66,6 +67,8 @@ class Invariants {
       wheels_age_ = std::min<std::uint32_t>(wheels_age_, frame.age_ms);
     } else if (is_correct<can::VisionBall>(frame)) {
       vision_age_ = std::min<std::uint32_t>(vision_age_, frame.age_ms);
+    } else if (is_correct<can::WheelOrder>(frame) || is_correct<can::MotionOrder>(frame)) {
+      order_age_ = std::min<std::uint32_t>(order_age_, frame.age_ms);
     } else if (is_correct<can::EmergencyStop>(frame)) {
       stopped_ = true;
       stop_age_ = 0;
@@ -138,7 +141,7 @@ class Invariants {
     check_command(sent.back(), now);
   }
 
-  static void check_report(const can::Frame& frame, const Told& now) {
+  void check_report(const can::Frame& frame, const Told& now) const {
     can::Status status;
     can::FaultReport report;
     can::Safety safety;
@@ -146,6 +149,11 @@ class Invariants {
       require(holds(frame, status) && status.state == static_cast<std::int32_t>(now.state) &&
                   status.fault == static_cast<std::int32_t>(now.fault),
               "Status tells what is");
+      const auto orders = static_cast<core::OrderState>(status.orders);
+      const bool followed = orders == core::OrderState::motion || orders == core::OrderState::wheels;
+      require(orders == core::OrderState::none || now.state == core::State::active,
+              "only an armed controller is under orders");
+      require(!followed || order_age_ <= core::order_timeout_ticks, "an order that is followed is good");
     } else if (can::is<can::FaultReport>(frame)) {
       require(holds(frame, report) && report.code == static_cast<std::int32_t>(now.fault),
               "FaultReport tells what is");
@@ -182,6 +190,7 @@ class Invariants {
   std::uint32_t before_tick_ = 0;
   std::uint32_t wheels_age_ = never;
   std::uint32_t vision_age_ = never;
+  std::uint32_t order_age_ = never;
   std::uint32_t stop_age_ = never;
   std::uint32_t armed_age_ = never;
   can::Challenge challenge_;  // the last one that was told
