@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which number each use of randomness has as the tag of its sil::Random: a stream of its own, so that a new
 // kind of draw disturbs no other. This is the only list of them. Below 100 the task draws an episode, from
-// 100 on a trainer learns from it, from 200 on things go wrong in it; a test that draws for itself takes any
-// number, as it shares its seed with nobody.
+// 100 on a trainer learns from it, from 200 on things go wrong in it, from 300 on it is a match; a test that draws for
+// itself takes any number, as it shares its seed with nobody.
 //
 // A number is part of every result that was drawn from it: add new ones at the end, and change none.
 #pragma once
@@ -27,12 +27,14 @@ inline constexpr std::uint64_t random_rival = 107;  // index: the episode
 inline constexpr std::uint64_t faults = 201;        // what a fault draws; index: the fault's own stream
 inline constexpr std::uint64_t campaign = 202;      // which faults a campaign's run has; index: the run
 inline constexpr std::uint64_t camera_noise = 203;  // of a camera
+inline constexpr std::uint64_t random_team = 310;   // the wheels of the team of that name
 
 namespace detail {
 
 consteval bool all_differ() {
-  std::array numbers = {ball,        pose,    conditions, vision_noise, weights, exploration, sampling,
-                        calibration, dummies, bootstrap,  random_rival, faults,  campaign,    camera_noise};
+  std::array numbers = {ball,         pose,     conditions,  vision_noise, weights,
+                        exploration,  sampling, calibration, dummies,      bootstrap,
+                        random_rival, faults,   campaign,    camera_noise, random_team};
   std::sort(numbers.begin(), numbers.end());
   return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
 }
