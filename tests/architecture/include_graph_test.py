@@ -49,7 +49,7 @@ ARROWS = {
     "sil/match/play": ["sil/match/record", "sil/match/team", "sil/match/referee", "sil/record", "sil/robot", "sil/bus",
                        "sil/scenario", "sil/world", "firmware/can", "firmware/core", "firmware/host", "firmware/loop"],
     "sil/match/league": ["sil/match/play", "sil/match/record", "sil/match/team", "sil/match/referee", "sil/scenario",
-                         "firmware/host"],
+                         "sil/task", "firmware/host"],
     "sil/budget": ["sil/bus", "firmware/can", "firmware/core", "firmware/host", "firmware/loop"],
     "sil/programs": ["sil", "firmware/host", "firmware/can", "firmware/core", "firmware/loop", "firmware/policy"],
     "training/task": ["sil/world", "sil/task", "firmware/core", "firmware/policy"],

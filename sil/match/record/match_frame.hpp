@@ -14,6 +14,7 @@
 #include "sil/match/referee/referee_frame.hpp"
 #include "sil/match/referee/ruling.hpp"
 #include "sil/match/team/order.hpp"
+#include "sil/world/robot_specs.hpp"
 
 namespace striker::sil {
 
@@ -26,7 +27,11 @@ struct MatchHeader {
   double slip = 0.0;     // share, of each wheel's speed
   double jitter_m = 0.0;
   double jitter_rad = 0.0;
+  // What each team plays with, as the 8 hexadecimal digits of a policy; empty: nothing but itself.
+  std::array<std::string, 2> identities = {};
 };
+
+inline constexpr double standing_height_m = (robot_bottom_m + robot_top_m) / 2.0;
 
 // Of one robot and its controller, at the frame's end.
 struct RobotRecord {
@@ -35,6 +40,7 @@ struct RobotRecord {
   std::array<double, 2> rim_speeds_m_s = {};  // left, right, measured
   std::array<double, 2> set_points_m_s = {};  // of the controller's last command
   double up = 1.0;                            // the vertical share of the robot's up vector
+  double height_m = standing_height_m;        // of the body's centre above the floor
   core::State state = core::State::standby;   // by its last status
   core::Fault fault = core::Fault::none;
   std::optional<int> order_age_ms;  // since its last order came; none: it never had one

@@ -1,0 +1,204 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Draws a match from its records, as SVG and PNG.
+
+Usage: striker-plot-match MATCH -o DIR
+
+Reads match.json, events.jsonl and frames.csv of the directory MATCH, and writes into DIR: positions (where both teams'
+robots were, as heat maps), ball (its path, with goals) and timeline (the referee's rulings and the score). Places are in
+red's own frame: red plays to the right, in both halves. The same records give the same bytes.
+"""
+
+import argparse
+import csv
+import json
+import os
+import subprocess
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.patches import Circle, Rectangle  # noqa: E402
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+HALF_LENGTH_M, HALF_WIDTH_M = 3.9, 2.325
+COLOURS = {"red": "C3", "blue": "C0"}
+EVENTS = {"goal": "goal", "ball_out": "ball out", "crowding": "crowding", "deadlock": "deadlock",
+          "sent_out": "sent out", "sent_home": "sent home", "returned": "returned"}
+
+# The same bytes for the same records.
+matplotlib.rcParams["svg.hashsalt"] = "striker"
+METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
+
+
+class PlotError(Exception):
+    """What cannot be drawn, in one line."""
+
+
+def read(directory, name, parse):
+    file = os.path.join(directory, name)
+    try:
+        with open(file, encoding="utf-8", newline="") as stream:
+            return parse(stream)
+    except OSError as error:
+        raise PlotError(f"{file}: {error.strerror}; give the directory of a match") from error
+    except (ValueError, KeyError) as error:
+        raise PlotError(f"{file}: cannot be read ({error}); play the match again") from error
+
+
+def frames_of(stream):
+    rows = list(csv.DictReader(stream))
+    if not rows:
+        raise ValueError("it has no frames")
+    columns = [name for name in rows[0] if name.startswith("ball_pos") or "_cur_pos_" in name]
+    return {"frame": [int(row["frame"]) for row in rows],
+            "active": {name: [row[name] == "True" for row in rows] for name in rows[0] if "_active" in name},
+            **{name: [float(row[name]) for row in rows] for name in columns}}
+
+
+def draw_field(axes):
+    style = {"fill": False, "edgecolor": "0.3", "linewidth": 0.8}
+    axes.add_patch(Rectangle((-HALF_LENGTH_M, -HALF_WIDTH_M), 2 * HALF_LENGTH_M, 2 * HALF_WIDTH_M, **style))
+    axes.add_patch(Circle((0, 0), 0.5, **style))
+    axes.plot([0, 0], [-HALF_WIDTH_M, HALF_WIDTH_M], color="0.3", linewidth=0.8)
+    for side in (-1, 1):
+        for depth, half_width in ((-0.9, 0.9), (-0.4, 0.65), (0.45, 0.5)):
+            corner = min(side * HALF_LENGTH_M, side * (HALF_LENGTH_M + depth))
+            axes.add_patch(Rectangle((corner, -half_width), abs(depth), 2 * half_width, **style))
+    axes.set_xlim(-4.5, 4.5)
+    axes.set_ylim(-2.5, 2.5)
+    axes.set_aspect("equal")
+    axes.set_xlabel("x, m")
+    axes.set_ylabel("y, m")
+
+
+def positions(frames, report, directory):
+    figure, panels = plt.subplots(1, 2, figsize=(13, 4.2), layout="constrained")
+    for axes, colour, suffix in zip(panels, COLOURS, ("", "_opp")):
+        x_m, y_m = [], []
+        for robot in range(5):
+            plays = frames["active"][f"robot_{robot}_active{suffix}"]
+            for places, part in ((x_m, 0), (y_m, 1)):
+                column = frames[f"robot_{robot}_cur_pos{suffix}_{part}"]
+                places.extend(place for place, active in zip(column, plays) if active)
+        if x_m:
+            _, _, _, image = axes.hist2d(x_m, y_m, bins=(90, 50), range=((-4.5, 4.5), (-2.5, 2.5)), cmin=1,
+                                         cmap="Reds" if colour == "red" else "Blues",
+                                         norm=matplotlib.colors.LogNorm())
+            figure.colorbar(image, ax=axes, label="frames of its five robots")
+        draw_field(axes)
+        axes.set_title(f"{colour}: {report[colour]['name']}")
+    save(figure, directory, "positions")
+
+
+# A line for each sequence of frames without a gap.
+def ball(frames, events, report, directory):
+    figure, axes = plt.subplots(figsize=(10, 6), layout="constrained")
+    draw_field(axes)
+    begin = 0
+    for end in range(1, len(frames["frame"]) + 1):
+        if end == len(frames["frame"]) or frames["frame"][end] != frames["frame"][end - 1] + 1:
+            axes.plot(frames["ball_pos_0"][begin:end], frames["ball_pos_1"][begin:end], color="0.4", linewidth=0.5,
+                      alpha=0.6)
+            begin = end
+    for colour in COLOURS:
+        goals = [event for event in events if event["event"] == "goal" and event["team"] == colour]
+        places = [(event["exit_m"], 1 if event["half"] == 1 else -1) for event in goals]
+        axes.plot([side * exit_m[0] for exit_m, side in places], [side * exit_m[1] for exit_m, side in places], "o",
+                  color=COLOURS[colour], label=f"goals of {report[colour]['name']} ({colour}): {len(goals)}")
+    axes.legend(loc="upper center", fontsize=8)
+    axes.set_title("path of the ball")
+    save(figure, directory, "ball")
+
+
+def timeline(events, report, directory):
+    figure, (above, below) = plt.subplots(2, 1, figsize=(12, 6), sharex=True, layout="constrained")
+    end_s = report["flow"]["sim_s"]
+    for index, colour in enumerate(COLOURS):
+        goals = [event for event in events if event["event"] == "goal" and event["team"] == colour]
+        times_s = [0.0, *(event["t_sim_ns"] / 1e9 for event in goals), end_s]
+        scores = [0, *(event["score"][index] for event in goals), report["result"]["score"][index]]
+        above.step(times_s, scores, where="post", color=COLOURS[colour], label=f"{report[colour]['name']} ({colour})")
+    for event in events:
+        if event["event"] in EVENTS:
+            row = list(EVENTS).index(event["event"]) + {"red": -0.12, "blue": 0.12, None: 0.0}[event["team"]]
+            below.plot([event["t_sim_ns"] / 1e9], [row], "|", color=COLOURS.get(event["team"], "0.3"), markersize=12)
+        if event["event"] == "half_over":
+            for axes in (above, below):
+                axes.axvline(event["t_sim_ns"] / 1e9, color="black", linewidth=0.7, linestyle=":")
+    score = report["result"]["score"]
+    above.set_title(f"{report['red']['name']} {score[0]} : {score[1]} {report['blue']['name']}"
+                    + ("" if report["complete"] else " (interrupted)"))
+    above.set_ylabel("goals")
+    above.yaxis.get_major_locator().set_params(integer=True)
+    above.legend(loc="upper left", fontsize=8)
+    below.set_yticks(range(len(EVENTS)), EVENTS.values())
+    below.set_ylim(len(EVENTS) - 0.5, -0.5)
+    below.set_xlim(0.0, end_s)
+    below.set_xlabel("simulated time, s; an event is of who scored, gets the ball, or whose robot it is")
+    for axes in (above, below):
+        axes.grid(axis="x", alpha=0.3)
+    save(figure, directory, "timeline")
+
+
+def save(figure, directory, name):
+    for kind, metadata in METADATA.items():
+        target = os.path.join(directory, f"{name}.{kind}")
+        part = f"{target}.part"
+        try:
+            figure.savefig(part, format=kind, metadata=metadata, dpi=100)
+            os.replace(part, target)
+        except OSError:
+            if os.path.exists(part):
+                os.remove(part)
+            raise
+        print(target)
+    plt.close(figure)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="striker-plot-match", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("match", metavar="MATCH", help="the directory that striker-sil match wrote")
+    parser.add_argument("-o", "--out", required=True, metavar="DIR", help="is made if there is none")
+    parser.add_argument("--version", action=ShowVersion)
+    options = parser.parse_args()
+    try:
+        report = read(options.match, "match.json", json.load)
+        events = read(options.match, "events.jsonl", lambda stream: [json.loads(line) for line in stream][1:])
+        frames = read(options.match, "frames.csv", frames_of)
+        os.makedirs(options.out, exist_ok=True)
+        positions(frames, report, options.out)
+        ball(frames, events, report, options.out)
+        timeline(events, report, options.out)
+    except PlotError as error:
+        refuse(error)
+    except OSError as error:
+        refuse(f"{error.filename or options.out}: {error.strerror}; give a folder that can be written with -o")
+
+
+class ShowVersion(argparse.Action):
+    """The build's, which striker-sil knows."""
+
+    def __init__(self, **options):
+        super().__init__(nargs=0, help="show the build's version and exit", **options)
+
+    def __call__(self, parser, *_):
+        program = os.path.join(HERE, "striker-sil")
+        try:
+            told = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            refuse(f"{program}: does not tell its version ({error})")
+        print(told.stdout.strip().replace("striker-sil", "striker-plot-match"))
+        parser.exit()
+
+
+def refuse(text):
+    print(f"striker-plot-match: {text}", file=sys.stderr)
+    sys.exit(2)
+
+
+if __name__ == "__main__":
+    main()
