@@ -27,14 +27,17 @@ inline constexpr std::uint64_t random_rival = 107;  // index: the episode
 inline constexpr std::uint64_t faults = 201;        // what a fault draws; index: the fault's own stream
 inline constexpr std::uint64_t campaign = 202;      // which faults a campaign's run has; index: the run
 inline constexpr std::uint64_t camera_noise = 203;  // of a camera
+inline constexpr std::uint64_t match_jitter = 301;  // of the formations of a match
+inline constexpr std::uint64_t match_slip = 302;    // of wheels in a match; index: the robot
+inline constexpr std::uint64_t match_team = 303;    // the seed of a strategy; index: the team
 inline constexpr std::uint64_t random_team = 310;   // the wheels of the team of that name
 
 namespace detail {
 
 consteval bool all_differ() {
-  std::array numbers = {ball,         pose,     conditions,  vision_noise, weights,
-                        exploration,  sampling, calibration, dummies,      bootstrap,
-                        random_rival, faults,   campaign,    camera_noise, random_team};
+  std::array numbers = {ball,     pose,         conditions,   vision_noise, weights,      exploration,
+                        sampling, calibration,  dummies,      bootstrap,    random_rival, faults,
+                        campaign, camera_noise, match_jitter, match_slip,   match_team,   random_team};
   std::sort(numbers.begin(), numbers.end());
   return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
 }

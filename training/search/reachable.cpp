@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "training/ceiling/reachable.hpp"
+#include "training/search/reachable.hpp"
 
 #include <algorithm>
 

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "training/ceiling/reachable.hpp"
+#include "training/search/reachable.hpp"
 
 namespace striker::training {
 

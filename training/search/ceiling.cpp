@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "training/ceiling/ceiling.hpp"
+#include "training/search/ceiling.hpp"
 
 #include <algorithm>
 #include <limits>
