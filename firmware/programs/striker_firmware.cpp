@@ -41,6 +41,7 @@ struct Options {
   std::string replay;
   std::string interface;
   std::string clock = "sync";
+  std::string role;
   unsigned sync_timeout_ms = 2000;
   std::optional<std::uint32_t> challenge_seed;
   std::string scheduler = "fifo";
@@ -63,6 +64,11 @@ void define_bus(CLI::App& app, Options& options) {
   app.add_option("--clock", options.clock, "what ticks the controller")
       ->check(CLI::IsMember({"sync", "realtime"}))
       ->capture_default_str();
+  app.add_option(
+         "--role", options.role,
+         "sync: one of AI Soccer's robots instead of the built-in one; goalkeeper and defender have no policy, "
+         "and go where their team orders them")
+      ->check(CLI::IsMember({"goalkeeper", "defender", "forward"}));
   app.add_option("--sync-timeout", options.sync_timeout_ms, "sync: fault without a SYNC for this long, in ms")
       ->check(CLI::Range(1, 3600000))
       ->capture_default_str();
@@ -125,10 +131,10 @@ void require_sound(CLI::App& app, const Options& options) {
   }
   host::require_meaning(app, is_replay, {"--interface"}, "--replay");
   host::require_meaning(app, !is_replay,
-                        {"--clock", "--scheduler", "--cpu", "--sync-timeout", "--ticks", "--json",
+                        {"--clock", "--role", "--scheduler", "--cpu", "--sync-timeout", "--ticks", "--json",
                          "--period-us", "--frames-per-tick", "--overrun-limit", "--priority", "--runtime-us"},
                         "--can or --in-process");
-  host::require_meaning(app, !is_real_time, {"--sync-timeout"}, "--clock sync");
+  host::require_meaning(app, !is_real_time, {"--sync-timeout", "--role"}, "--clock sync");
   host::require_meaning(app, is_real_time,
                         {"--ticks", "--json", "--period-us", "--frames-per-tick", "--overrun-limit"},
                         "--clock realtime");
@@ -184,10 +190,17 @@ class Bench {
   Helper helper_;
 };
 
+// AI Soccer's goalkeepers and defenders are too slow for the built-in policy.
+bool has_policy(const Options& options) {
+  return options.role.empty() || options.role == "forward";
+}
+
 void print_granted(const Options& options, const Granted& granted) {
-  fmt::print("striker-firmware: on {}, clock {}, policy {} {:08x}\n",
-             options.in_process ? "a bench in process" : options.can, options.clock, policy::built_in_name,
-             policy::built_in.identity);
+  const std::string policy =
+      has_policy(options) ? fmt::format("policy {} {:08x}", policy::built_in_name, policy::built_in.identity)
+                          : "no policy";
+  fmt::print("striker-firmware: on {}, clock {}, {}\n",
+             options.in_process ? "a bench in process" : options.can, options.clock, policy);
   for (const std::string& line : granted.lines) {
     fmt::print("  {}\n", line);
   }
@@ -200,13 +213,26 @@ void print_granted(const Options& options, const Granted& granted) {
   }
 }
 
+core::RobotProfile robot_of(const Options& options) {
+  if (options.role.empty()) {
+    return loop::built_in_robot;
+  }
+  return core::profile_of(options.role == "goalkeeper" ? core::goalkeeper
+                          : options.role == "defender" ? core::defender
+                                                       : core::forward);
+}
+
 void run_on_sync(const Options& options) {
   const std::vector<std::uint16_t> others = all_but_stops(can::controller_receives<can::StrikerDrives>);
   host::CanSocket socket(options.can, others);
   host::CanSocket stops(options.can, stop_identifiers);
   print_granted(options, ask_for_real_time(settings_of(options)));
-  const LockstepReport report = run_lockstep(
-      {socket, stops}, std::chrono::milliseconds(options.sync_timeout_ms), challenge_seed(options));
+  const LockstepSockets sockets = {socket, stops};
+  const std::chrono::milliseconds timeout(options.sync_timeout_ms);
+  const std::uint32_t seed = challenge_seed(options);
+  const LockstepReport report =
+      has_policy(options) ? run_lockstep<loop::BuiltInNode>(robot_of(options), sockets, timeout, seed)
+                          : run_lockstep<loop::OrderedNode>(robot_of(options), sockets, timeout, seed);
   fmt::print("striker-firmware: stopped after {} ticks; {} frames dropped\n", report.ticks,
              report.dropped_frames);
 }

@@ -16,6 +16,7 @@
 
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/bus.hpp"
+#include "firmware/loop/ordered_node.hpp"
 #include "firmware/loop/sync_ticks.hpp"
 #include "firmware/loop/tick_loop.hpp"
 #include "sil/bus/controller_link.hpp"
@@ -59,16 +60,35 @@ class MemoryBus {
 
 static_assert(loop::Bus<MemoryBus, std::int64_t>);
 
-class InProcessLink final : public ControllerLink {
+template <class Node>
+class NodeLink final : public ControllerLink {
  public:
   static constexpr std::uint32_t sync_timeout_ticks = 200;
 
   // A controller that was told of this robot.
-  explicit InProcessLink(const core::RobotProfile& robot) : loop_(robot, {}, {}) {}
-  InProcessLink() : InProcessLink(loop::built_in_robot) {}
+  explicit NodeLink(const core::RobotProfile& robot) : loop_(robot, {}, {}) {}
+  NodeLink() : NodeLink(loop::built_in_robot) {}
 
-  void send(std::uint32_t tick, std::span<const can::Frame> frames) override;
-  void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override;
+  void send(std::uint32_t, std::span<const can::Frame> frames) override {
+    loop_.bus().put(frames);
+    if (stands_still_) {
+      return;
+    }
+    ++ticks_without_sync_;
+    while (loop_.turn()) {
+      ticks_without_sync_ = loop_.ticks().answered_sync() ? 0 : ticks_without_sync_;
+    }
+    constexpr std::uint32_t again_ticks = 100;
+    if (ticks_without_sync_ >= sync_timeout_ticks &&
+        (ticks_without_sync_ - sync_timeout_ticks) % again_ticks == 0) {
+      loop_.ticks().overdue();
+      loop_.turn();
+    }
+  }
+  void collect(std::uint32_t, std::vector<can::Frame>& answer) override {
+    const auto sent = loop_.bus().sent();
+    answer.insert(answer.end(), sent.begin(), sent.end());
+  }
 
   [[nodiscard]] const auto& controller() const { return loop_.node().controller(); }
 
@@ -90,9 +110,16 @@ class InProcessLink final : public ControllerLink {
     return std::as_writable_bytes(std::span(const_cast<Part*>(&part), 1));
   }
 
-  loop::TickLoop<loop::BuiltInNode, MemoryBus, loop::SyncTicks> loop_;
+  loop::TickLoop<Node, MemoryBus, loop::SyncTicks> loop_;
   std::uint32_t ticks_without_sync_ = 0;
   bool stands_still_ = false;
 };
+
+// The controller that this build's programs and images run.
+using InProcessLink = NodeLink<loop::BuiltInNode>;
+
+// Compiled once, in in_process_link.cpp.
+extern template class NodeLink<loop::BuiltInNode>;
+extern template class NodeLink<loop::OrderedNode>;
 
 }  // namespace striker::sil

@@ -14,7 +14,7 @@
 #include "sil/fault/plan/plan_file.hpp"
 #include "sil/programs/kick_options.hpp"
 #include "sil/scenario/fault_report.hpp"
-#include "sil/scenario/worker_pool.hpp"
+#include "sil/scenario/runs/worker_pool.hpp"
 
 namespace striker::sil {
 
@@ -64,7 +64,7 @@ std::vector<std::vector<FaultResult>> play_all(const FaultPlan& plan, const Faul
   host::ProgressLine progress("run", static_cast<std::int64_t>(tasks.size()));
   std::int64_t done = 0;
   run_in_processes(
-      tasks, options.bus == "inproc" ? options.jobs : 1,
+      tasks, {.jobs = options.bus == "inproc" ? options.jobs : 1},
       [&](std::uint64_t task) {
         const auto [one, number] = runs[task];
         return to_line(play_fault(plan.cases[one], run_options(options, options.first + number)));

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "sil/bus/in_process_link.hpp"
 #include "sil/bus/socketcan_link.hpp"
 #include "sil/programs/kick_options.hpp"
+#include "sil/programs/match/replay_match_command.hpp"
 #include "sil/programs/robot_options.hpp"
 
 namespace striker::sil {
@@ -33,8 +35,11 @@ std::unique_ptr<ControllerLink> link_of(const ReplayOptions& options) {
 }  // namespace
 
 void define(CLI::App& replay, ReplayOptions& options) {
-  host::reads_file(
-      replay.add_option("log", options.log, "a candump log of a run in lockstep, as 'kick --log' writes it"))
+  replay
+      .add_option(
+          "log", options.log,
+          "a candump log of a run in lockstep, as 'kick --log' writes it; or the directory of a match: it is "
+          "played again as its teams ordered, and compared frame by frame")
       ->required();
   replay.add_option("--interface", options.interface, "of the log, where it has more than one");
   define_robot(replay, options.robot);
@@ -50,6 +55,8 @@ void define(CLI::App& replay, ReplayOptions& options) {
       ->check(CLI::Range(1U, 3'600'000U))
       ->capture_default_str();
   replay.final_callback([&replay, &options] {
+    host::require_meaning(replay, !std::filesystem::is_directory(options.log),
+                          {"--interface", "--robot", "--bus"}, "a log, not with a match");
     host::require_meaning(replay, options.bus != "inproc", {"--answer-timeout", "--start-timeout"},
                           "--bus can:IFACE");
     require_robot_in_process(replay, options.bus);
@@ -57,6 +64,9 @@ void define(CLI::App& replay, ReplayOptions& options) {
 }
 
 int play_replay(const ReplayOptions& options) {
+  if (std::filesystem::is_directory(options.log)) {
+    return play_match_again(options.log);
+  }
   host::LockstepLog log(options.log, options.interface);
   const auto link = link_of(options);
   const host::ReplayReport report = host::replay(

@@ -8,6 +8,8 @@
 #include "sil/programs/campaign_command.hpp"
 #include "sil/programs/fault_command.hpp"
 #include "sil/programs/kick_command.hpp"
+#include "sil/programs/match/league_command.hpp"
+#include "sil/programs/match/match_command.hpp"
 #include "sil/programs/replay_command.hpp"
 
 using namespace striker;
@@ -25,6 +27,12 @@ int main(int argc, char** argv) {
   CLI::App* campaign = app.add_subcommand("campaign", "play many random combinations of faults");
   CampaignOptions campaign_options;
   define(*campaign, campaign_options);
+  CLI::App* match = app.add_subcommand("match", "play AI Soccer, five against five");
+  MatchOptions match_options;
+  define(*match, match_options);
+  CLI::App* league = app.add_subcommand("league", "play every two of some teams, many times");
+  LeaguePlan league_plan;
+  define(*league, league_plan);
   CLI::App* replay =
       app.add_subcommand("replay", "give a recorded run's frames to a controller, and compare");
   ReplayOptions replay_options;
@@ -35,6 +43,12 @@ int main(int argc, char** argv) {
         host::catch_stop_signals();
         if (campaign->parsed()) {
           return play_campaign(campaign_options);
+        }
+        if (match->parsed()) {
+          return play_match(match_options);
+        }
+        if (league->parsed()) {
+          return play_league(league_plan);
         }
         if (replay->parsed()) {
           return play_replay(replay_options);

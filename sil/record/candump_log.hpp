@@ -5,7 +5,6 @@
 // bytes.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 
 #include "firmware/host/atomic_file.hpp"
@@ -23,8 +22,6 @@ class CandumpLog final : public Observer {
   void end_run() override { file_.finish(); }
 
  private:
-  void write(std::size_t robot, const StampedFrame& stamped);
-
   host::AtomicFile file_;
 };
 

@@ -4,42 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
-#include <vector>
 
 #include "firmware/can/messages.hpp"
 #include "firmware/host/files.hpp"
-#include "firmware/host/progress.hpp"
 #include "firmware/host/version.hpp"
 #include "firmware/loop/built_in_node.hpp"
 #include "sil/fault/plan/plan_file.hpp"
 #include "sil/fault/plan/random_faults.hpp"
 #include "sil/scenario/fault_run.hpp"
 #include "sil/scenario/minimise.hpp"
-#include "sil/scenario/run_file.hpp"
-#include "sil/scenario/worker_pool.hpp"
+#include "sil/scenario/runs/shared_runs.hpp"
 
 namespace striker::sil {
 
 namespace {
-
-struct Ranks {
-  std::uint64_t rank = 0;
-  std::uint64_t size = 1;
-};
-
-Ranks ranks_of_mpirun() {
-  const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
-  const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
-  if (rank == nullptr || size == nullptr) {
-    return {};
-  }
-  return {.rank = std::strtoull(rank, nullptr, 10), .size = std::strtoull(size, nullptr, 10)};
-}
 
 std::string header_of(const CampaignOptions& options) {
   const nlohmann::ordered_json header = {{"campaign", options.seed},
@@ -75,7 +55,7 @@ std::string line_of(std::uint64_t number, const FaultCase& faults, const FaultRe
 }
 
 // In a worker: the run's line, and the plan that replays its violation.
-std::string carry_out(std::uint64_t number, const CampaignOptions& options) {
+std::string run_of(std::uint64_t number, const CampaignOptions& options) {
   const FaultCase faults = random_case(options.seed, number);
   const FaultResult result = play(faults);
   if (!result.violations.empty()) {
@@ -93,49 +73,6 @@ std::string failed_line(std::uint64_t number, const CampaignOptions& options, co
   FaultResult result;
   result.failure = why;
   return line_of(number, faults, result);
-}
-
-void carry_out_share(const CampaignOptions& options, const Ranks& ranks, RunFile& file,
-                     const std::function<bool()>& stop) {
-  std::vector<std::uint64_t> tasks;
-  std::int64_t share = 0;
-  for (std::uint64_t number = ranks.rank; number < options.runs; number += ranks.size) {
-    ++share;
-    if (!file.runs().contains(number)) {
-      tasks.push_back(number);
-    }
-  }
-  const std::int64_t before = share - static_cast<std::int64_t>(tasks.size());
-  std::int64_t done = before;
-  host::ProgressLine progress("run", share, before);
-  run_in_processes(
-      tasks, options.jobs, [&](std::uint64_t number) { return carry_out(number, options); },
-      [&](const PoolResult& result) {
-        file.append(result.task,
-                    result.failure.empty() ? result.line : failed_line(result.task, options, result.failure));
-        if (progress.due(++done)) {
-          progress.show(done, "");
-        }
-      },
-      stop);
-  progress.finish();
-}
-
-bool complete(const RunFile& file, const CampaignOptions& options) {
-  for (std::uint64_t number = 0; number < options.runs; ++number) {
-    if (!file.runs().contains(number)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-void wait_for_others(const CampaignOptions& options, RunFile& file, const std::function<bool()>& stop) {
-  constexpr std::chrono::milliseconds pause{200};
-  while (!complete(file, options) && !stop()) {
-    std::this_thread::sleep_for(pause);
-    file.read_again();
-  }
 }
 
 CampaignSummary summary_of(const CampaignOptions& options, const RunFile& file) {
@@ -167,20 +104,15 @@ CampaignSummary summary_of(const CampaignOptions& options, const RunFile& file) 
 }  // namespace
 
 CampaignSummary run_campaign(const CampaignOptions& options, const std::function<bool()>& stop) {
-  const Ranks ranks = ranks_of_mpirun();
   host::require_writable(options.directory);
   RunFile file(options.directory / "runs.jsonl", header_of(options));
-  carry_out_share(options, ranks, file, stop);
-  if (ranks.rank > 0) {
-    return {.reports = false};
-  }
-  if (ranks.size > 1) {
-    wait_for_others(options, file, stop);
-  }
-  if (ranks.size == 1 || complete(file, options)) {
-    file.finish();
-  }
-  return summary_of(options, file);
+  const SharedRuns shared = {
+      .runs = options.runs,
+      .jobs = options.jobs,
+      .carry_out = [&](std::uint64_t number) { return run_of(number, options); },
+      .failed = [&](std::uint64_t number,
+                    const std::string& why) { return failed_line(number, options, why); }};
+  return carry_out(shared, file, stop) ? summary_of(options, file) : CampaignSummary{.reports = false};
 }
 
 }  // namespace striker::sil

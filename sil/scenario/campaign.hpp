@@ -6,8 +6,7 @@
 // first line says what they are runs of: seed, policy, protocol. DIR/violation-N.toml is the smallest plan that still
 // breaks the invariant of run N: `striker-sil faults --plan`.
 //
-// Several processes of one `mpirun` (Open MPI's, or any that sets OMPI_COMM_WORLD_RANK and _SIZE) share the runs; the
-// first one waits for the others and finishes the files. They need one file system; no MPI library is needed.
+// Several processes of one `mpirun` share the runs (runs/shared_runs.hpp).
 #pragma once
 
 #include <cstdint>

@@ -46,6 +46,7 @@ void Operator::hear(std::span<const can::Frame> frames) {
     has_heard_ = true;
     decisions_ += can::is<can::Decision>(frame) ? 1 : 0;
     if (can::is<can::Status>(frame) && can::receive(frame, status) == can::Verdict::accepted) {
+      state_ = static_cast<core::State>(status.state);
       fault_ = static_cast<core::Fault>(status.fault);
     } else if (can::is<can::Safety>(frame) && can::receive(frame, safety) == can::Verdict::accepted) {
       faults_ = static_cast<core::Faults>(safety.faults);

@@ -27,6 +27,7 @@ class Operator {
   [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
 
   // By its last status and safety report.
+  [[nodiscard]] core::State controller_state() const { return state_; }
   [[nodiscard]] core::Fault controller_fault() const { return fault_; }
   [[nodiscard]] bool controller_is_stopped() const;
   // The policy's identity from the last version frame, 8 hexadecimal digits; "unknown" before one came.
@@ -41,6 +42,7 @@ class Operator {
   std::uint64_t decisions_ = 0;
   std::optional<can::Mode> asked_;
   std::int32_t challenge_ = 0;  // to be confirmed; 0: none
+  core::State state_ = core::State::boot;
   core::Fault fault_ = core::Fault::none;
   core::Faults faults_ = 0;
   std::string policy_ = "unknown";

@@ -12,8 +12,8 @@
 
 #include "firmware/host/files.hpp"
 #include "sil/scenario/minimise.hpp"
-#include "sil/scenario/run_file.hpp"
-#include "sil/scenario/worker_pool.hpp"
+#include "sil/scenario/runs/run_file.hpp"
+#include "sil/scenario/runs/worker_pool.hpp"
 
 namespace striker::sil {
 namespace {
@@ -79,7 +79,7 @@ TEST(WorkerPool, EveryTaskIsDoneOnceAndACrashCostsItselfAlone) {
   std::iota(tasks.begin(), tasks.end(), 100);
   std::map<std::uint64_t, PoolResult> results;
   run_in_processes(
-      tasks, 3,
+      tasks, {.jobs = 3},
       [](std::uint64_t task) {
         if (task == 107) {
           std::raise(SIGKILL);

@@ -143,6 +143,13 @@ class Ends(files_case.FilesCase):
                                  "--json", self.file("a.json")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                 **options)
 
+    def wait_for_an_episode(self):
+        journal = self.file("a.json.episodes.jsonl")
+        end = time.monotonic() + 60
+        while not os.path.exists(journal) or os.path.getsize(journal) == 0:
+            self.assertLess(time.monotonic(), end, "no episode within a minute")
+            time.sleep(0.05)
+
     def check_log(self, path):
         with open(path, encoding="ascii") as stream:
             text = stream.read()
@@ -174,7 +181,7 @@ class Ends(files_case.FilesCase):
     def test_a_signal_keeps_whole_files(self):
         for number in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
             process = self.start()
-            time.sleep(0.7)
+            self.wait_for_an_episode()
             process.send_signal(number)
             _, told = process.communicate(timeout=20)
             self.assertEqual(process.returncode, 130, told)

@@ -45,7 +45,7 @@ typedef enum striker_state {
 
 /* Opaque; only its size is told here. The library does not compile if the controller outgrows it. */
 typedef struct striker_controller {
-  uint64_t storage[160];
+  uint64_t storage[176];
 } striker_controller;
 
 /* Fresh from boot. Once before anything else; again to restart. `seed`: another number at every start, never 0: from it

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "firmware/host/stop_signal.hpp"
-#include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/bus.hpp"
 #include "firmware/loop/sync_ticks.hpp"
 #include "firmware/loop/tick_loop.hpp"
@@ -72,14 +71,14 @@ static_assert(loop::Bus<LockstepBus, std::int64_t>);
 
 }  // namespace
 
-LockstepReport run_lockstep(const LockstepSockets& sockets, std::chrono::milliseconds sync_timeout,
-                            std::uint32_t seed) {
+template <class Node>
+LockstepReport run_lockstep(const core::RobotProfile& robot, const LockstepSockets& sockets,
+                            std::chrono::milliseconds sync_timeout, std::uint32_t seed) {
   using Clock = std::chrono::steady_clock;
   LockstepReport report;
   LockstepBus bus(sockets.all_but_stops, sockets.stops);
   loop::SyncTicks ticks;
-  loop::TickLoop<loop::BuiltInNode, LockstepBus&, loop::SyncTicks&> loop(loop::built_in_robot, bus, ticks,
-                                                                         seed);
+  loop::TickLoop<Node, LockstepBus&, loop::SyncTicks&> loop(robot, bus, ticks, seed);
   FaultAnnouncer announcer;
   auto last_sync = Clock::now();
   auto last_told = last_sync;
@@ -102,5 +101,10 @@ LockstepReport run_lockstep(const LockstepSockets& sockets, std::chrono::millise
   report.dropped_frames = loop.dropped_frames();
   return report;
 }
+
+template LockstepReport run_lockstep<loop::BuiltInNode>(const core::RobotProfile&, const LockstepSockets&,
+                                                        std::chrono::milliseconds, std::uint32_t);
+template LockstepReport run_lockstep<loop::OrderedNode>(const core::RobotProfile&, const LockstepSockets&,
+                                                        std::chrono::milliseconds, std::uint32_t);
 
 }  // namespace striker::linux_port

@@ -27,6 +27,7 @@ struct MatchHeader {
   double slip = 0.0;     // share, of each wheel's speed
   double jitter_m = 0.0;
   double jitter_rad = 0.0;
+  std::string faults;  // a plan of what goes wrong (sil/fault), as its TOML text; empty: nothing
   // What each team plays with, as the 8 hexadecimal digits of a policy; empty: nothing but itself.
   std::array<std::string, 2> identities = {};
 };

@@ -59,11 +59,18 @@ nlohmann::ordered_json header_json(const MatchHeader& header) {
   for (const std::string& identity : header.identities) {
     identities.push_back(identity.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(identity));
   }
-  return {
-      {"teams", header.teams},           {"identities", identities},    {"seed", header.seed},
-      {"plant", header.plant},           {"slip", header.slip},         {"jitter_m", header.jitter_m},
-      {"jitter_rad", header.jitter_rad}, {"rule_set", header.rule_set}, {"rules", rules_json(header.rules)},
-      {"geometry", geometry_json()},     {"physics", physics_json()}};
+  return {{"teams", header.teams},
+          {"identities", identities},
+          {"seed", header.seed},
+          {"plant", header.plant},
+          {"slip", header.slip},
+          {"jitter_m", header.jitter_m},
+          {"jitter_rad", header.jitter_rad},
+          {"faults", header.faults},
+          {"rule_set", header.rule_set},
+          {"rules", rules_json(header.rules)},
+          {"geometry", geometry_json()},
+          {"physics", physics_json()}};
 }
 
 nlohmann::ordered_json json_of(Vec2 spot) {

@@ -13,7 +13,8 @@
 //     name, goals, own_goals (for the opponent)
 //     ball           possession_s, possession_share (of both teams'), control_s, control_share (likewise),
 //                    attacking_third_share of played_s, touches, passes, penalty_area_entries
-//     attack         shots, shots_on_target, conversion (goals that are no own goals of the opponent, a shot)
+//     attack         shots, shots_on_target, conversion (goals that are no own goals of the opponent, a shot), kicks,
+//                    kicks_met, kicks_as_meant, kicks_as_meant_share of those met
 //     keeper         saves, line_m and lag_m (means)
 //     goal_kicks, corners, penalties
 //                    that it got: total, after_out, after_crowding, after_deadlock

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/match/team/team_view.hpp"
 
+#include "sil/match/referee/match_rules.hpp"
+
 namespace striker::sil {
 
 namespace {
@@ -19,10 +21,12 @@ TeamView view_of(Team team, const RefereeFrame& seen, const Ruling& ruling) {
                      .active = !ruling.locked[number] && !ruling.sent_out[number],
                      .touching = seen.touching[number]};
   };
+  const bool stands_still = ruling.state == GameState::pause || ruling.state == GameState::over;
   TeamView view{.clock_ms = ruling.clock_ms,
                 .half = ruling.half,
+                .sim_ms = ruling.sim_ms + frame_ms,
                 .score = {ruling.score[index_of(team)], ruling.score[index_of(opponent_of(team))]},
-                .state = ruling.state,
+                .state = stands_still ? GameState::open_play : ruling.state,
                 .has_ball = ruling.owner == team,
                 .reset_reason = ruling.reset_reason,
                 .own = {},

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "sil/match/referee/event.hpp"
 #include "sil/match/referee/referee_frame.hpp"
@@ -22,7 +23,9 @@ struct RobotView {
 struct TeamView {
   int clock_ms = 0;  // of the half
   int half = 1;
+  std::int64_t sim_ms = 0;        // simulated time of what is seen, since the match began
   std::array<int, 2> score = {};  // own, the opponent's
+  // The end of a half, shown in its pause, counts as open play: so AI Soccer's messages have it.
   GameState state = GameState::kickoff;
   bool has_ball = false;                         // in a set piece alone: it is this team's
   ResetReason reset_reason = ResetReason::none;  // red is whoever plays in red, in either half

@@ -29,7 +29,7 @@ TEST(EventLog, BeginsWithTheMatch) {
     keys.push_back(key);
   }
   EXPECT_EQ(keys, (std::vector<std::string>{"record", "format", "teams", "identities", "seed", "plant",
-                                            "slip", "jitter_m", "jitter_rad", "rule_set", "rules", "geometry",
+                                            "slip", "jitter_m", "jitter_rad", "faults", "rule_set", "rules", "geometry",
                                             "physics", "version", "git_hash", "build_type"}));
   EXPECT_EQ(header["record"], "striker match events");
   EXPECT_EQ(header["teams"], (Json::array({"rules", "striker"})));

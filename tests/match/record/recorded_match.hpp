@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sil/match/record/match_frame.hpp"
@@ -92,6 +93,7 @@ class RecordedMatch {
   PlayedMatch match;
   std::array<RobotRecord, robots_in_match> robots = {};
   std::array<double, 3> velocity = {};
+  std::array<std::optional<TeamOrders>, 2> orders = {};
 
  private:
   void show(const RefereeFrame& seen) {
@@ -100,7 +102,7 @@ class RecordedMatch {
                               .ruling = match.ruling(),
                               .ball_velocity_m_s = velocity,
                               .robots = robots,
-                              .orders = {}};
+                              .orders = orders};
     for (MatchObserver* observer : observers_) {
       observer->frame(frame);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ceiling is attained, and nothing is above it.
-#include "training/search/ceiling.hpp"
+#include "training/ceiling/ceiling.hpp"
 
 #include <gtest/gtest.h>
 

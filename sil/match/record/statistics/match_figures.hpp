@@ -47,6 +47,12 @@ struct TeamFigures {
   // The opponent's shot on target is next touched by the goalkeeper, and is not in within 2 s.
   int saves = 0;
 
+  // Kicks that the team ordered as a motion of the controller; those in which that robot touched the ball; and of these
+  // the ones whose ball, 100 ms later, has gone within 15 degrees of where the order meant it to go.
+  int kicks = 0;
+  int kicks_met = 0;
+  int kicks_as_meant = 0;
+
   // The goalkeeper while the clock runs and it is not out: its distance from its goal line, and how far it is beside
   // the ball's y (as far as the goal's mouth goes). Sums over frames.
   double keeper_line_sum_m = 0.0;

@@ -49,6 +49,7 @@ void MatchStatistics::add(const MatchFrame& frame) {
     const bool is_goal = std::ranges::count(ruling.events, EventKind::goal, &MatchEvent::kind) > 0;
     shots_.stop(is_goal, figures_);
     touches_.stop();
+    kicks_.stop();
   }
   figures_.score = ruling.score;
   figures_.half = ruling.half;
@@ -65,6 +66,7 @@ void MatchStatistics::add(const MatchFrame& frame) {
 void MatchStatistics::add_play(const MatchFrame& frame) {
   touches_.add(frame.seen, figures_);
   shots_.add(frame.seen, frame.ball_velocity_m_s, frame.ruling.half, figures_);
+  kicks_.add(frame, figures_);
   add_places(frame.seen, frame.ruling.half);
   add_keepers(frame.seen, frame.ruling.half);
   add_control(frame);

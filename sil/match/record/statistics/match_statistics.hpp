@@ -8,6 +8,7 @@
 #pragma once
 
 #include "sil/match/record/match_frame.hpp"
+#include "sil/match/record/statistics/kicks.hpp"
 #include "sil/match/record/statistics/match_figures.hpp"
 #include "sil/match/record/statistics/shots.hpp"
 #include "sil/match/record/statistics/touches.hpp"
@@ -36,6 +37,7 @@ class MatchStatistics {
   MatchFigures figures_;
   Touches touches_;
   Shots shots_;
+  Kicks kicks_;
 
   // By the frame before: what held while this frame's 50 ms went by.
   GameState state_ = GameState::pause;

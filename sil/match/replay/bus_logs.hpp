@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ten buses of a match as candump logs, gzipped: DIR/vcan0.log.gz to DIR/vcan9.log.gz. A minute of play is some
+// 7 MB of text a bus, and a seventh of that compressed; python-can's LogReader reads them as they are, all else after
+// gunzip. Stamps are logical time: same match, same bytes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sil/record/observer.hpp"
+
+namespace striker::sil {
+
+[[nodiscard]] std::filesystem::path bus_log_file(const std::filesystem::path& directory, std::size_t robot);
+
+// Written as FILE.part, renamed at the end of the run. Throws std::runtime_error that names the file.
+class BusLogs final : public Observer {
+ public:
+  BusLogs(const std::filesystem::path& directory, std::size_t robots);
+  ~BusLogs() override;
+  BusLogs(const BusLogs&) = delete;
+  BusLogs& operator=(const BusLogs&) = delete;
+
+  void end_tick(const Snapshot& snapshot) override;
+  void end_run() override;
+
+ private:
+  struct Log {
+    std::filesystem::path file;
+    void* stream = nullptr;  // zlib's gzFile
+  };
+
+  std::vector<Log> logs_;
+};
+
+// Reads one, gzipped or not, line by line, without its end. Throws std::runtime_error that names the file.
+class BusLogReader {
+ public:
+  explicit BusLogReader(const std::filesystem::path& file);
+  ~BusLogReader();
+  BusLogReader(const BusLogReader&) = delete;
+  BusLogReader& operator=(const BusLogReader&) = delete;
+
+  // Empty at the end.
+  [[nodiscard]] const std::string& next();
+
+ private:
+  std::filesystem::path file_;
+  void* stream_ = nullptr;
+  std::string line_;
+};
+
+}  // namespace striker::sil

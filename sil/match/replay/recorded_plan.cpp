@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/match/replay/recorded_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "firmware/host/files.hpp"
+#include "sil/match/play/match_faults.hpp"
+
+namespace striker::sil {
+
+namespace {
+
+MatchPlan plan_in(const nlohmann::json& match) {
+  MatchPlan plan;
+  MatchHeader& header = plan.header;
+  match.at("teams").get_to(header.teams);
+  match.at("seed").get_to(header.seed);
+  match.at("plant").get_to(header.plant);
+  match.at("slip").get_to(header.slip);
+  match.at("jitter_m").get_to(header.jitter_m);
+  match.at("jitter_rad").get_to(header.jitter_rad);
+  match.at("rule_set").get_to(header.rule_set);
+  header.rules = header.rule_set == "published" ? published() : official();
+  match.at("rules").at("half_ms").get_to(header.rules.half_ms);
+  const auto plant = plant_kind_of(header.plant);
+  if (!plant) {
+    throw std::runtime_error(fmt::format("\"plant\" is '{}'", header.plant));
+  }
+  if (!are_sound(header.rules)) {
+    throw std::runtime_error(fmt::format("\"half_ms\" is {}", header.rules.half_ms));
+  }
+  plan.plant = *plant;
+  if (const auto faults = match.at("faults").get<std::string>(); !faults.empty()) {
+    add_faults(plan, faults, "\"faults\"");
+  }
+  return plan;
+}
+
+}  // namespace
+
+RecordedMatch read_match(const std::filesystem::path& match_json) {
+  try {
+    const auto match = nlohmann::json::parse(host::read_file(match_json));
+    if (match.at("record") != "striker match" || match.at("format") != 1) {
+      throw std::runtime_error("is no match of this format");
+    }
+    return {.plan = plan_in(match),
+            .end = {.complete = match.at("complete").get<bool>(),
+                    .state_hash = std::stoull(match.at("state_hash").get<std::string>(), nullptr, 16)}};
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}; give a directory that 'striker-sil match --out' wrote",
+                                         match_json.string(), error.what()));
+  }
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a recorded match was played by, read from its match.json (sil/match/record/match_report.hpp).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "sil/match/play/match_run.hpp"
+
+namespace striker::sil {
+
+struct RecordedMatch {
+  MatchPlan plan;
+  MatchEnd end;
+};
+
+// Throws std::runtime_error that names the file, and the key that is missing or has no meaning.
+[[nodiscard]] RecordedMatch read_match(const std::filesystem::path& match_json);
+
+}  // namespace striker::sil

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/programs/match/match_command.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/files.hpp"
+#include "firmware/host/progress.hpp"
+#include "firmware/host/stop_signal.hpp"
+#include "sil/match/play/match_faults.hpp"
+#include "sil/match/play/match_links.hpp"
+#include "sil/match/record/match_records.hpp"
+#include "sil/match/replay/bus_logs.hpp"
+#include "sil/match/team/strategies.hpp"
+#include "sil/match/team/tcp/tcp_strategy.hpp"
+#include "sil/programs/kick_options.hpp"
+#include "sil/programs/match/match_options.hpp"
+
+namespace striker::sil {
+
+namespace {
+
+// Score and clock on stderr.
+class MatchProgress final : public MatchObserver {
+ public:
+  void begin(const MatchHeader& header) override {
+    half_s_ = header.rules.half_ms / 1000;
+    line_ = std::make_unique<host::ProgressLine>("second", 2 * half_s_);
+  }
+  void frame(const MatchFrame& frame) override {
+    const Ruling& ruling = frame.ruling;
+    const int done_s = (ruling.half - 1) * half_s_ + ruling.clock_ms / 1000;
+    if (done_s != shown_s_ && line_->due(done_s)) {
+      shown_s_ = done_s;
+      line_->show(done_s, fmt::format("{}:{}", ruling.score[0], ruling.score[1]));
+    }
+  }
+  void end(const MatchEnd&) override { line_->finish(); }
+
+ private:
+  int half_s_ = 0;
+  int shown_s_ = 0;
+  std::unique_ptr<host::ProgressLine> line_;
+};
+
+MatchLinks open_links(const MatchOptions& options) {
+  if (options.bus == "inproc") {
+    return links_in_process();
+  }
+  return links_on_can(interface_of(options.bus), {std::chrono::milliseconds(options.answer_timeout_ms),
+                                                  std::chrono::milliseconds(options.start_timeout_ms)});
+}
+
+std::unique_ptr<Strategy> make_team(const MatchOptions& options, Team team) {
+  const std::string& name = options.setting.teams[index_of(team)];
+  if (const auto port = tcp_port_of(name)) {
+    fmt::print(stderr, "striker-sil: {} waits for a player program on 127.0.0.1, port {}\n", name, *port);
+    return std::make_unique<TcpStrategy>(
+        TcpOptions{.port = *port,
+                   .answer_timeout = std::chrono::milliseconds(options.answer_timeout_ms),
+                   .half_ms = options.setting.half_s * 1000});
+  }
+  return make_strategy(name, team_seed(options.setting, team));
+}
+
+}  // namespace
+
+void define(CLI::App& match, MatchOptions& options) {
+  MatchSetting& setting = options.setting;
+  match.footer(
+      "Exit status: 0 played to its end; 2 wrong use, or a bus or file that fails; 130 interrupted: what was played is "
+      "kept, and marked as incomplete.");
+  match
+      .add_option("--red", setting.teams[0],
+                  "who plays in red, or tcp:PORT: a player program of AI Soccer 2020")
+      ->check(team_problem)
+      ->capture_default_str();
+  match.add_option("--blue", setting.teams[1], "who plays in blue")
+      ->check(team_problem)
+      ->capture_default_str();
+  define_play(match, setting);
+  match
+      .add_option(
+          "--bus", options.bus,
+          "inproc: ten controllers in this process; can:PREFIX: over SocketCAN, on PREFIX0 to PREFIX9")
+      ->check(bus_problem)
+      ->capture_default_str();
+  match
+      .add_option("--answer-timeout", options.answer_timeout_ms,
+                  "a controller on a bus, or a player program, is waited for so long, in ms")
+      ->check(CLI::Range(1, 3600000))
+      ->capture_default_str();
+  match.add_option("--start-timeout", options.start_timeout_ms, "can: wait for the controllers, in ms")
+      ->check(CLI::Range(1, 3600000))
+      ->capture_default_str();
+  match
+      .add_option("--first-s", options.first_s,
+                  "play no more than so much simulated time, in s; 0: the whole match")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  host::reads_file(match.add_option(
+      "--faults", options.faults,
+      "a plan of faults whose cases are named robot0 to robot9 (sil/fault/README.md); inproc, or those of a real bus"));
+  match.add_option("-o,--out", options.out,
+                   "directory of everything that the match writes; made if it is not there");
+}
+
+int play_match(const MatchOptions& options) {
+  const MatchLinks links = open_links(options);
+  std::array<std::unique_ptr<Strategy>, 2> strategies;
+  MatchParts parts;
+  for (const Team team : teams) {
+    auto& strategy = strategies[index_of(team)];
+    strategy = make_team(options, team);
+    parts.teams[index_of(team)] = strategy.get();
+  }
+  for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
+    parts.links[robot] = links[robot].get();
+  }
+  MatchProgress progress;
+  std::vector<MatchObserver*> records = {&progress};
+  std::vector<std::unique_ptr<MatchObserver>> files;
+  if (!options.out.empty()) {
+    files = match_records(options.out);
+  }
+  for (const auto& file : files) {
+    records.push_back(file.get());
+  }
+  std::vector<Observer*> buses;
+  std::optional<BusLogs> logs;
+  if (!options.out.empty()) {
+    buses.push_back(&logs.emplace(options.out / "bus", robots_in_match));
+  }
+  parts.records = records;
+  parts.buses = buses;
+  MatchPlan plan = plan_of(options.setting);
+  if (!options.faults.empty()) {
+    add_faults(plan, host::read_file(options.faults), options.faults);
+  }
+  MatchRun run(plan, parts);
+  const auto start = std::chrono::steady_clock::now();
+  const auto is_enough = [&] {
+    return host::stop_requested() || (options.first_s > 0.0 && run.simulated_s() >= options.first_s);
+  };
+  const MatchEnd end = run.run(is_enough);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  if (!options.out.empty()) {
+    write_timing({.simulated_s = run.simulated_s(), .wall_s = wall.count()}, options.out);
+  }
+  fmt::print("{} {} : {} {}{}, {:.1f} s simulated, {:.1f} x real time, state {:016x}\n",
+             options.setting.teams[0], run.ruling().score[0], run.ruling().score[1], options.setting.teams[1],
+             end.complete ? "" : " (incomplete)", run.simulated_s(), run.simulated_s() / wall.count(),
+             end.state_hash);
+  return host::stop_requested() ? host::exit_interrupted : 0;
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/programs/match/replay_match_command.hpp"
+
+#include <fmt/format.h>
+
+#include "firmware/core/tick.hpp"
+#include "firmware/host/command_line.hpp"
+#include "firmware/host/stop_signal.hpp"
+#include "sil/match/replay/match_replay.hpp"
+#include "sil/match/replay/recorded_plan.hpp"
+
+namespace striker::sil {
+
+namespace {
+
+constexpr int exit_differs = 1;
+
+void tell(const ReplayDifference& difference) {
+  fmt::print("tick {}, frame {}, robot {}: recorded {}, now {}\n", difference.tick,
+             difference.tick / core::decision_period_ticks, difference.robot,
+             difference.recorded.empty() ? "nothing" : difference.recorded,
+             difference.now.empty() ? "nothing" : difference.now);
+}
+
+}  // namespace
+
+int play_match_again(const std::filesystem::path& directory) {
+  const RecordedMatch recorded = read_match(directory / "match.json");
+  const MatchReplay again = replay_match(recorded.plan, recorded.end.complete, directory / "bus",
+                                         links_in_process(), host::stop_requested);
+  if (again.difference) {
+    tell(*again.difference);
+    return exit_differs;
+  }
+  if (host::stop_requested()) {
+    return host::exit_interrupted;
+  }
+  fmt::print("{} frames on ten buses, all as recorded; state {:016x}\n", again.frames, again.end.state_hash);
+  if (recorded.end.complete && again.end.state_hash != recorded.end.state_hash) {
+    fmt::print("but the match ended in state {:016x}\n", recorded.end.state_hash);
+    return exit_differs;
+  }
+  return 0;
+}
+
+}  // namespace striker::sil

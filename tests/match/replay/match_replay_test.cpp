@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/match/replay/match_replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "sil/match/replay/bus_logs.hpp"
+#include "tests/match/play/watched_match.hpp"
+
+namespace striker::sil {
+namespace {
+
+class MatchReplayed : public ::testing::Test {
+ protected:
+  MatchReplayed() {
+    std::filesystem::create_directories(directory_);
+    ShortMatch match(setting_);
+    BusLogs logs(directory_, robots_in_match);
+    match.play({}, {&logs});
+    end_ = match.end;
+  }
+  ~MatchReplayed() override { std::filesystem::remove_all(directory_); }
+
+  MatchReplay replay(bool complete = true) {
+    return replay_match(plan_of(setting_), complete, directory_, links_in_process(), [] { return false; });
+  }
+
+  // Replaces one line of a robot's log, which is plain text afterwards: a reader takes both.
+  void change_line(std::size_t robot, const std::string& with,
+                   const std::function<std::string(std::string)>& change) {
+    const auto file = bus_log_file(directory_, robot);
+    std::string text;
+    {
+      BusLogReader reader(file);
+      bool done = false;
+      for (std::string line = reader.next(); !line.empty(); line = reader.next()) {
+        const bool is_it = !done && line.find(with) != std::string::npos;
+        text += (is_it ? change(line) : line) + '\n';
+        done = done || is_it;
+      }
+      ASSERT_TRUE(done);
+    }
+    std::ofstream(file) << text;
+  }
+
+  MatchSetting setting_ = {.teams = {"rules", "random"}, .seed = 8, .half_s = 4};
+  std::filesystem::path directory_ =
+      std::filesystem::path(::testing::TempDir()) /
+      ("match_replay_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  MatchEnd end_;
+};
+
+TEST_F(MatchReplayed, TheSameMatchComesOut) {
+  const MatchReplay again = replay();
+  EXPECT_FALSE(again.difference) << again.difference->recorded << " is now " << again.difference->now;
+  EXPECT_EQ(again.end.state_hash, end_.state_hash);
+  EXPECT_GT(again.frames, 100'000U);
+}
+
+TEST_F(MatchReplayed, OneAlteredBitOfACommandIsFound) {
+  change_line(7, "(0000000002.034000) vcan7 050#", [](std::string line) {
+    line.back() = line.back() == '0' ? '1' : '0';
+    return line;
+  });
+  const MatchReplay again = replay();
+  ASSERT_TRUE(again.difference);
+  EXPECT_EQ(again.difference->robot, 7U);
+  EXPECT_EQ(again.difference->tick, 2'034U);
+}
+
+TEST_F(MatchReplayed, OneAlteredOrderChangesTheMatchFromItsFrameOn) {
+  change_line(9, "(0000000003.000000) vcan9 084#", [](std::string line) {
+    line.replace(line.size() - 4, 4, "0000");
+    return line;
+  });
+  const MatchReplay again = replay();
+  ASSERT_TRUE(again.difference);
+  EXPECT_EQ(again.difference->robot, 9U);
+  EXPECT_EQ(again.difference->tick, 3'000U);
+}
+
+TEST_F(MatchReplayed, ALineThatIsMissingIsFound) {
+  change_line(2, "(0000000005.100000) vcan2 060#", [](const std::string&) { return std::string(" "); });
+  const MatchReplay again = replay();
+  ASSERT_TRUE(again.difference);
+  EXPECT_EQ(again.difference->robot, 2U);
+}
+
+TEST_F(MatchReplayed, ALogThatIsNotThereIsNamed) {
+  std::filesystem::remove(bus_log_file(directory_, 4));
+  try {
+    (void)replay();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("vcan4.log.gz"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace striker::sil
