@@ -24,8 +24,9 @@ inline constexpr std::uint64_t calibration = 104;   // random play before an exp
 inline constexpr std::uint64_t dummies = 105;       // inputs that say nothing; index: the episode
 inline constexpr std::uint64_t bootstrap = 106;     // resampled runs of an experiment
 inline constexpr std::uint64_t random_rival = 107;  // index: the episode
-inline constexpr std::uint64_t faults = 201;        // what a fault draws; index: the fault's own stream
-inline constexpr std::uint64_t campaign = 202;      // which faults a campaign's run has; index: the run
+inline constexpr std::uint64_t guide = 108;     // whom a learner's guide leads, how far; index: the episode
+inline constexpr std::uint64_t faults = 201;    // what a fault draws; index: the fault's own stream
+inline constexpr std::uint64_t campaign = 202;  // which faults a campaign's run has; index: the run
 inline constexpr std::uint64_t camera_noise = 203;  // of a camera
 inline constexpr std::uint64_t match_jitter = 301;  // of the formations of a match
 inline constexpr std::uint64_t match_slip = 302;    // of wheels in a match; index: the robot
@@ -35,9 +36,10 @@ inline constexpr std::uint64_t random_team = 310;   // the wheels of the team of
 namespace detail {
 
 consteval bool all_differ() {
-  std::array numbers = {ball,     pose,         conditions,   vision_noise, weights,      exploration,
-                        sampling, calibration,  dummies,      bootstrap,    random_rival, faults,
-                        campaign, camera_noise, match_jitter, match_slip,   match_team,   random_team};
+  std::array numbers = {ball,         pose,       conditions,  vision_noise, weights,
+                        exploration,  sampling,   calibration, dummies,      bootstrap,
+                        random_rival, guide,      faults,      campaign,     camera_noise,
+                        match_jitter, match_slip, match_team,  random_team};
   std::sort(numbers.begin(), numbers.end());
   return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
 }

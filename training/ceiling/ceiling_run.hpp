@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "training/ceiling/ceiling.hpp"
+#include "training/search/ceiling.hpp"
 #include "training/ceiling/rivals.hpp"
 
 namespace striker::training {

@@ -43,6 +43,7 @@ struct RolloutConfig {
   int round_episodes = 0;       // played at once, then learnt from; `rollout.round`
   int planner_episodes = 0;     // labels are the planner's in the first so many episodes
   int longest_hold = 0;         // decisions that an exploration holds its action
+  double guided_share = 0.0;    // of the nominal episodes, that begin by the exact search's sequence
   double passes = 0.0;          // how often each label is drawn, on the average
   double focus = 0.0;           // so many times as many labels where actions are near each other, at the most
   double pairwise_share = 0.0;  // of the training, with the pairwise loss; then with the expected regret, ...

@@ -18,6 +18,7 @@ struct Conditions {
   int command_delay_steps = 0;      // physics steps of 10 ms until a decision acts, at most a decision's
   double vision_noise_m = 0.0;      // standard deviation of each coordinate of ball and robot
   int vision_late_frames = 0;       // 0 or 1, of 50 ms
+  bool operator==(const Conditions&) const = default;
 };
 
 // The ranges shrunk towards the nominal values by `strength`, 0 to 1.

@@ -42,6 +42,9 @@ constexpr float least_difference = 1e-6F;
 
 Rollouts::Rollouts(const Shape& shape, const RolloutConfig& config, const std::vector<TaskConfig>& tasks)
     : config_(config), kicks_(tasks.begin(), tasks.end()), greedy_plays_(shape) {
+  if (config.guided_share > 0.0) {
+    guide_.emplace(tasks.front());
+  }
   visited_.resize(shape.inputs, static_cast<Eigen::Index>(config.round_episodes) * sil::kick_decisions);
 }
 
@@ -59,25 +62,37 @@ std::vector<EpisodeRow> Rollouts::round(const Parameters& network, const RoundPl
 void Rollouts::begin(const RoundPlan& plan) {
   episodes_.clear();
   plays_.clear();
-  for (int i = 0; i < plan.episodes; ++i) {
-    const std::uint64_t number = first_training_episode + static_cast<std::uint64_t>(plan.first_episode + i);
-    const LineKick& kick = kicks_[number % kicks_.size()];
-    episodes_.push_back(kick.draw(plan.seed, number, conditions_of(kick.task().randomise, plan, i)));
-  }
-  for (int i = 0; i < plan.episodes; ++i) {
-    const std::uint64_t number = first_training_episode + static_cast<std::uint64_t>(plan.first_episode + i);
-    plays_.push_back({.kick = &kicks_[number % kicks_.size()],
-                      .episode = &episodes_[static_cast<std::size_t>(i)],
-                      .robot = {}});
-  }
-  explorations_.assign(plays_.size(), {});
+  explorations_.clear();
   visits_.clear();
+  // The plays point to their episodes, which must not move.
+  episodes_.reserve(static_cast<std::size_t>(plan.episodes));
+  for (int i = 0; i < plan.episodes; ++i) {
+    begin_episode(plan, i);
+  }
+}
+
+void Rollouts::begin_episode(const RoundPlan& plan, int i) {
+  const std::uint64_t number = first_training_episode + static_cast<std::uint64_t>(plan.first_episode + i);
+  const LineKick& kick = kicks_[number % kicks_.size()];
+  const Conditions conditions = conditions_of(kick.task().randomise, plan, i);
+  episodes_.push_back(kick.draw(plan.seed, number, conditions));
+  plays_.push_back({.kick = &kick, .episode = &episodes_.back(), .robot = {}});
+  Exploration& exploration = explorations_.emplace_back();
+  sil::Random random(plan.seed, number, sil::random_stream::guide);
+  if (conditions == Conditions{} && random.uniform() < config_.guided_share) {
+    exploration.guidance = guide_->lead(plan.seed, number, random);
+  }
 }
 
 // An exploration holds a random action for a random time: single decisions against a plan are soon undone, and lead
 // to nothing that the network would not have met.
 int Rollouts::explored(Exploration& exploration, int greedy, int decision, double epsilon,
                        sil::Random& exploring) const {
+  if (decision < exploration.guidance.decisions) {
+    const int action = exploration.guidance.actions[static_cast<std::size_t>(decision)];
+    exploration.last_decision = action == greedy ? exploration.last_decision : decision;
+    return action;
+  }
   if (exploration.held == 0 && exploring.uniform() < epsilon) {
     exploration.held =
         1 + static_cast<int>(exploring.below(static_cast<std::uint64_t>(config_.longest_hold)));

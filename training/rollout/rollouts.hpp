@@ -6,11 +6,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sil/world/random.hpp"
 #include "training/learner/dqn.hpp"
 #include "training/rollout/greedy_plays.hpp"
+#include "training/rollout/guide.hpp"
 #include "training/rollout/label_store.hpp"
 
 namespace striker::training {
@@ -43,12 +45,14 @@ class Rollouts {
   };
   // What an episode's exploration is at.
   struct Exploration {
-    int held = 0;  // so many decisions are left of it
+    Guidance guidance;
+    int held = 0;  // so many decisions are left of a random action
     int action = 0;
     int last_decision = -1;  // that was not the network's choice
   };
 
   void begin(const RoundPlan& plan);
+  void begin_episode(const RoundPlan& plan, int i);
   void play(const Parameters& network, double epsilon, sil::Random& exploring);
   int explored(Exploration& exploration, int greedy, int decision, double epsilon,
                sil::Random& exploring) const;
@@ -59,6 +63,7 @@ class Rollouts {
   RolloutConfig config_;
   std::vector<LineKick> kicks_;
   GreedyPlays greedy_plays_;
+  std::optional<Guide> guide_;  // if there is any share for it
 
   std::vector<LineEpisode> episodes_;
   std::vector<LinePlay> plays_;

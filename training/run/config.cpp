@@ -74,6 +74,10 @@ std::string canonical_text(toml::table root, const core::RobotDescription& robot
   if (robot == core::forward) {
     root.erase("robot");
   }
+  toml::table& rollout = *root["rollout"].as_table();
+  if (rollout["guided_share"].value<double>() == 0.0) {
+    rollout.erase("guided_share");
+  }
   toml::table& learner = *root["learner"].as_table();
   if (learner["time_limit"].value<bool>() == false) {
     learner.erase("time_limit");
@@ -150,7 +154,7 @@ Config parse_config(std::string_view text, const std::string& file, const std::v
   read_exploration(reader, config.exploration);
   require_no_other_learners_keys(reader, TomlReader(defaults, "paper.toml"), config.learner.kind);
   if (config.learner.kind == LearnerKind::rollout) {
-    require_line_task(reader, config.environments.front());
+    require_line_task(reader, config.environments.front(), config.rollout);
   }
   return config;
 }

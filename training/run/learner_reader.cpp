@@ -6,6 +6,7 @@
 
 #include "sil/task/kick_task.hpp"
 #include "training/line/line_episode.hpp"
+#include "training/rollout/guide.hpp"
 
 namespace striker::training {
 
@@ -29,7 +30,7 @@ constexpr std::array dqn_keys = {"learner.gamma",
 constexpr std::array rollout_keys = {
     "rollout.round",           "rollout.planner_episodes", "rollout.longest_hold",  "rollout.passes",
     "rollout.focus",           "rollout.pairwise_share",   "rollout.pairwise_rest", "rollout.temperature",
-    "rollout.greatest_regret", "rollout.value_weight",     "randomise.share"};
+    "rollout.greatest_regret", "rollout.value_weight",     "rollout.guided_share",  "randomise.share"};
 
 std::string value_of(const TomlReader& reader, const std::string& key) {
   std::ostringstream text;
@@ -66,6 +67,7 @@ void read_rollout(const TomlReader& reader, RolloutConfig& rollout) {
   reader.read("rollout.round", rollout.round_episodes, 1, 100'000);
   reader.read("rollout.planner_episodes", rollout.planner_episodes, 0, 10'000'000);
   reader.read("rollout.longest_hold", rollout.longest_hold, 1, sil::kick_decisions);
+  reader.read("rollout.guided_share", rollout.guided_share, 0.0, 1.0);
   reader.read("rollout.passes", rollout.passes, 0.01, 1000.0);
   reader.read("rollout.focus", rollout.focus, 1.0, 100.0);
   reader.read("rollout.pairwise_share", rollout.pairwise_share, 0.0, 1.0);
@@ -109,10 +111,16 @@ void require_no_other_learners_keys(const TomlReader& reader, const TomlReader& 
   }
 }
 
-void require_line_task(const TomlReader& reader, const TaskConfig& task) {
-  if (const std::string why = LineKick::unfit(task); !why.empty()) {
-    const auto colon = why.find(':');
-    reader.fail(why.substr(0, colon), "with learner.kind = \"rollout\" " + why.substr(colon + 2));
+void require_line_task(const TomlReader& reader, const TaskConfig& task, const RolloutConfig& rollout) {
+  const auto require_fit = [&](const std::string& why, const std::string& with) {
+    if (!why.empty()) {
+      const auto colon = why.find(':');
+      reader.fail(why.substr(0, colon), "with " + with + " " + why.substr(colon + 2));
+    }
+  };
+  require_fit(LineKick::unfit(task), "learner.kind = \"rollout\"");
+  if (rollout.guided_share > 0.0) {
+    require_fit(Guide::unfit(task), "rollout.guided_share");
   }
 }
 

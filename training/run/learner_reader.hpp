@@ -16,7 +16,7 @@ void read_exploration(const TomlReader& reader, ExplorationConfig& exploration);
 // A key that only the other kind of learner reads must have its default: set, it would do nothing.
 void require_no_other_learners_keys(const TomlReader& reader, const TomlReader& defaults, LearnerKind kind);
 
-// The learner from own rollouts plays on a line.
-void require_line_task(const TomlReader& reader, const TaskConfig& task);
+// The learner from own rollouts plays on a line; its guide searches there.
+void require_line_task(const TomlReader& reader, const TaskConfig& task, const RolloutConfig& rollout);
 
 }  // namespace striker::training

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ceiling is attained, and nothing is above it.
-#include "training/ceiling/ceiling.hpp"
+#include "training/search/ceiling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -42,16 +42,32 @@ double reward_of(KickEnvironment& env, GreedyRule& greedy, int episode, const st
       .reward;
 }
 
-class Labels : public testing::TestWithParam<double> {};
+// Where the guide leads the episode: drawn as the round does.
+Guidance guidance_of(Guide& guide, double share, int episode) {
+  const std::uint64_t number = first_training_episode + static_cast<std::uint64_t>(episode);
+  sil::Random random(seed, number, sil::random_stream::guide);
+  return random.uniform() < share ? guide.lead(seed, number, random) : Guidance{};
+}
+
+struct Played {
+  double epsilon = 0.0;
+  double guided_share = 0.0;
+};
+
+class Labels : public testing::TestWithParam<Played> {};
 
 TEST_P(Labels, AreWhatTheEnvironmentPays) {
-  const double epsilon = GetParam();
+  const auto [epsilon, guided_share] = GetParam();
   const TaskConfig task{.one_sided = true};
+  RolloutConfig guided = config;
+  guided.guided_share = guided_share;
+  Guide guide(task);
   const Parameters network = some_parameters(3);
   KickEnvironment env(task);
   GreedyRule greedy(network);
-  Rollouts rollouts(network.shape(), config, {task});
+  Rollouts rollouts(network.shape(), guided, {task});
   int labelled = 0;
+  int led = 0;
   for (int episode = 0; episode < 150; ++episode) {
     sil::Random exploring(seed, static_cast<std::uint64_t>(episode), 1);
     sil::Random beside = exploring;
@@ -59,6 +75,8 @@ TEST_P(Labels, AreWhatTheEnvironmentPays) {
     const auto rows =
         rollouts.round(network, {.seed = seed, .first_episode = episode, .episodes = 1, .epsilon = epsilon},
                        exploring, labels);
+    const Guidance guidance = guidance_of(guide, guided_share, episode);
+    led += guidance.decisions > 0 ? 1 : 0;
     Explorer explorer(epsilon, 3);
     std::vector<int> played;
     std::vector<std::pair<Features, Eigen::Vector3d>> expected;
@@ -72,7 +90,9 @@ TEST_P(Labels, AreWhatTheEnvironmentPays) {
         values[branch.back()] = reward_of(other, greedy, episode, branch);
       }
       expected.emplace_back(features, values);
-      played.push_back(explorer(greedy(env), beside));
+      const std::size_t decision = played.size();
+      played.push_back(static_cast<int>(decision) < guidance.decisions ? guidance.actions.at(decision)
+                                                                       : explorer(greedy(env), beside));
       end = env.step(played.back()).end;
     }
     EXPECT_NEAR(rows.front().reward, reward_of(env, greedy, episode, played), 1e-9);
@@ -90,9 +110,12 @@ TEST_P(Labels, AreWhatTheEnvironmentPays) {
     labelled += static_cast<int>(place);
   }
   EXPECT_GT(labelled, 200);
+  EXPECT_EQ(led > 20, guided_share > 0.0) << led;
 }
 
-INSTANTIATE_TEST_SUITE_P(Rollout, Labels, testing::Values(0.0, 0.2));
+INSTANTIATE_TEST_SUITE_P(Rollout, Labels,
+                         testing::Values(Played{}, Played{.epsilon = 0.2},
+                                         Played{.epsilon = 0.2, .guided_share = 0.5}));
 
 // In doubt all states are labelled, elsewhere fewer; weighted, they stand for all.
 TEST(Labels, TheirWeightsMakeUpForTheFocus) {
