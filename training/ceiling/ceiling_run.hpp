@@ -8,8 +8,8 @@
 #include <functional>
 #include <vector>
 
-#include "training/search/ceiling.hpp"
 #include "training/ceiling/rivals.hpp"
+#include "training/search/ceiling.hpp"
 
 namespace striker::training {
 

@@ -29,8 +29,8 @@ TEST(EventLog, BeginsWithTheMatch) {
     keys.push_back(key);
   }
   EXPECT_EQ(keys, (std::vector<std::string>{"record", "format", "teams", "identities", "seed", "plant",
-                                            "slip", "jitter_m", "jitter_rad", "faults", "rule_set", "rules", "geometry",
-                                            "physics", "version", "git_hash", "build_type"}));
+                                            "slip", "jitter_m", "jitter_rad", "faults", "rule_set", "rules",
+                                            "geometry", "physics", "version", "git_hash", "build_type"}));
   EXPECT_EQ(header["record"], "striker match events");
   EXPECT_EQ(header["teams"], (Json::array({"rules", "striker"})));
   EXPECT_EQ(header["identities"], (Json::array({nullptr, "0badcafe"})));
