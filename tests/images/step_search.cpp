@@ -23,8 +23,9 @@ struct Scene {
   loop::GatedNode<loop::BuiltInNode> node{loop::built_in_robot};
   std::uint32_t tick = 0;
   std::int32_t picture = 0;
-  can::SendCounter wheels, pose, ball, stop;
+  can::SendCounter wheels, pose, ball, team, stop;
   loop::BenchOperator operators;
+  bool has_team = false;
   can::FrameList sent;
   can::WheelState speeds;
   core::Vector robot_quarter_mm, ball_quarter_mm;
@@ -75,6 +76,17 @@ void add_picture(Scene& scene, SmallRandom& random, Frames& frames) {
                        scene.ball));
 }
 
+// Three motions in four begin anew, which is more work than to go on.
+void add_order(Scene& scene, SmallRandom& random, Frames& frames) {
+  if (one_in(random, 4)) {
+    frames.add(can::send(can::WheelOrder{.left_mm_s = random.within(8000), .right_mm_s = random.within(8000)},
+                         scene.team));
+  } else {
+    const auto number = static_cast<std::int32_t>(random.bits() % core::motion_numbers);
+    frames.add(can::send(can::MotionOrder{.number = number}, scene.team));
+  }
+}
+
 void add_mode(Scene& scene, SmallRandom& random, Frames& frames) {
   can::Mode mode = one_in(random, 8) ? can::Mode::disarm : can::Mode::clear;
   if (scene.node.controller().state() == core::State::standby) {
@@ -112,6 +124,9 @@ Frames frames_of(Scene& scene, SmallRandom& random) {
     }
     if (scene.tick % 50 == 0 || one_in(random, 128)) {
       add_picture(scene, random, frames);
+    }
+    if (scene.has_team && (scene.tick % 50 == 0 || one_in(random, 128))) {
+      add_order(scene, random, frames);
     }
   }
   const bool wants_mode = scene.node.controller().state() == core::State::standby
@@ -156,6 +171,7 @@ SearchResult search_longest_step(std::uint32_t steps, std::uint32_t seed) {
   for (std::uint32_t i = 0; i < steps; ++i) {
     if (one_in(random, 2000)) {
       scene = one_in(random, 2) ? longest : Scene{};
+      scene.has_team = one_in(random, 2);
     }
     const Scene before = scene;
     const Frames frames = frames_of(scene, random);
