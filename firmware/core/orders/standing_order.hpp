@@ -77,7 +77,7 @@ class StandingOrder {
   OrderState state_ = OrderState::none;
   std::uint8_t number_ = motion_numbers;  // of the last motion that began; none has this one
   std::uint8_t begins_ = 0;               // until the policy acts
-  std::uint8_t reserved_ = 0;
+  [[maybe_unused]] std::uint8_t reserved_ = 0;
 };
 
 }  // namespace striker::core
