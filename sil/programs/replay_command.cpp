@@ -21,8 +21,6 @@ namespace striker::sil {
 
 namespace {
 
-constexpr int exit_differs = 1;
-
 std::unique_ptr<ControllerLink> link_of(const ReplayOptions& options) {
   if (options.bus == "inproc") {
     return std::make_unique<InProcessLink>(core::profile_of(described_robot(options.robot)));

@@ -7,6 +7,9 @@
 
 namespace striker::sil {
 
+// Of a replay that came out different.
+inline constexpr int exit_differs = 1;
+
 struct ReplayOptions {
   std::string log;
   std::string interface;

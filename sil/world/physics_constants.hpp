@@ -17,4 +17,7 @@ inline constexpr double kept_in_10_ms = 0.9977710522882823;
 // Coulomb friction between a tyre and the floor.
 inline constexpr double tyre_friction = 3.0;
 
+// A contact that closes slower than this does not bounce.
+inline constexpr double bounce_threshold_m_s = 0.01;
+
 }  // namespace striker::sil

@@ -8,12 +8,11 @@
 #include "firmware/host/stop_signal.hpp"
 #include "sil/match/replay/match_replay.hpp"
 #include "sil/match/replay/recorded_plan.hpp"
+#include "sil/programs/replay_command.hpp"
 
 namespace striker::sil {
 
 namespace {
-
-constexpr int exit_differs = 1;
 
 void tell(const ReplayDifference& difference) {
   fmt::print("tick {}, frame {}, robot {}: recorded {}, now {}\n", difference.tick,

@@ -28,8 +28,6 @@ constexpr std::array<Material, pair_count> materials = {{
     {.mu = 1.0, .bounce = 0.0, .softness = {.erp = 0.15, .cfm = 1e-5}},            // held_body_ball
 }};
 
-constexpr double bounce_threshold_m_s = 0.01;
-
 }  // namespace
 
 double spring_N_m(const Softness& at_reference_step) {

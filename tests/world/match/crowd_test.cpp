@@ -15,7 +15,7 @@ namespace {
 
 constexpr double step_s = 0.010;
 
-PlanarRobot free_robot(Vec2 at, Vec2 velocity) {
+PileRobot free_robot(Vec2 at, Vec2 velocity) {
   return {.pose = {.x_m = at.x, .y_m = at.y, .heading_rad = 0.0},
           .velocity_m_s = velocity,
           .yaw_rate_rad_s = 0.0,
@@ -27,7 +27,7 @@ PlanarRobot free_robot(Vec2 at, Vec2 velocity) {
           .grip_N = 0.0};
 }
 
-double energy_J(const PlanarRobot& robot, const Vec3& speeds) {
+double energy_J(const PileRobot& robot, const Vec3& speeds) {
   const double along =
       std::cos(robot.pose.heading_rad) * speeds.x + std::sin(robot.pose.heading_rad) * speeds.y;
   const double across =
@@ -51,7 +51,7 @@ TEST(PlanarPile, TwoRobotsExchangeMomentumWithTheTablesBounce) {
 TEST(PlanarPile, PressingOnAWallTheWallTakesTheMotorsForceThroughThree) {
   PlanarPile pile;
   for (int i = 0; i < 3; ++i) {
-    PlanarRobot robot = free_robot({-0.075 - 0.15 * i, 0.0}, {});
+    PileRobot robot = free_robot({-0.075 - 0.15 * i, 0.0}, {});
     robot.drives = {{{.rim_speed_m_s = 2.0, .force_N = 12.0}, {.rim_speed_m_s = 2.0, .force_N = 12.0}}};
     robot.grip_N = 30.0;
     pile.add(robot);
@@ -78,10 +78,10 @@ TEST(PlanarPile, AddsNoEnergy) {
     Random random(21, i, 0);
     PlanarPile pile;
     double before_J = 0.0;
-    std::vector<PlanarRobot> robots;
+    std::vector<PileRobot> robots;
     for (int k = 0; k < 10; ++k) {
       const int row = k / 4;
-      PlanarRobot robot =
+      PileRobot robot =
           free_robot({0.16 * (k % 4), 0.16 * row}, {random.uniform(-2, 2), random.uniform(-2, 2)});
       robot.pose.heading_rad = random.uniform(-3.0, 3.0);
       robot.mass_along_kg = 1.8;

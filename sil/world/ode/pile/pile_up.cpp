@@ -53,7 +53,7 @@ PlanarDrive drive_of(const Robot& robot, std::size_t wheel, double grip_N) {
           .force_N = std::min(ceiling_Nm / radius_m, grip_N)};
 }
 
-PlanarRobot planar(const Robot& robot) {
+PileRobot planar(const Robot& robot) {
   // Standing, a robot's six contacts with the floor carry it alike, and four of them are the tyres'.
   constexpr double on_tyres = 4.0 / 6.0;
   const RobotSpec& spec = robot.spec;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "sil/world/physics_constants.hpp"
+
 namespace striker::sil {
 namespace {
 
 constexpr int sweeps = 30;  // each there and back
-// A contact that closes slower than this does not bounce; as in the contact table.
-constexpr double bounce_threshold_m_s = 0.01;
 
 // The line of action of a force along `direction` at a lever from the centre.
 Vec3 line_of(Vec2 lever_m, Vec2 direction) {
@@ -33,7 +33,7 @@ void PlanarPile::clear() {
   rows_.clear();
 }
 
-std::size_t PlanarPile::add(const PlanarRobot& robot) {
+std::size_t PlanarPile::add(const PileRobot& robot) {
   bodies_.push_back(
       {.robot = robot, .speeds = {robot.velocity_m_s.x, robot.velocity_m_s.y, robot.yaw_rate_rad_s}});
   return bodies_.size() - 1;
@@ -44,7 +44,7 @@ void PlanarPile::add(const PlanarContact& contact) {
 }
 
 Vec3 PlanarPile::yield(std::size_t body, const Vec3& line) const {
-  const PlanarRobot& robot = bodies_[body].robot;
+  const PileRobot& robot = bodies_[body].robot;
   const double cosine = std::cos(robot.pose.heading_rad);
   const double sine = std::sin(robot.pose.heading_rad);
   const double along = (cosine * line.x + sine * line.y) / robot.mass_along_kg;
@@ -76,7 +76,7 @@ void PlanarPile::add_row(std::size_t a, std::optional<std::size_t> b, Vec2 at_m,
 }
 
 void PlanarPile::add_traction(std::size_t body, double step_s) {
-  const PlanarRobot robot = bodies_[body].robot;
+  const PileRobot robot = bodies_[body].robot;
   const Vec2 ahead{std::cos(robot.pose.heading_rad), std::sin(robot.pose.heading_rad)};
   const Vec2 left{-ahead.y, ahead.x};
   const Vec2 centre{robot.pose.x_m, robot.pose.y_m};

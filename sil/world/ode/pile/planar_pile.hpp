@@ -22,7 +22,7 @@ struct PlanarDrive {
   double force_N;
 };
 
-struct PlanarRobot {
+struct PileRobot {
   Pose pose;
   Vec2 velocity_m_s;
   double yaw_rate_rad_s;
@@ -49,7 +49,7 @@ class PlanarPile {
   PlanarPile();
 
   void clear();
-  std::size_t add(const PlanarRobot& robot);
+  std::size_t add(const PileRobot& robot);
   void add(const PlanarContact& contact);
 
   // The impulses of a step. No allocation once the largest pile has been.
@@ -63,7 +63,7 @@ class PlanarPile {
  private:
   // Speeds and lines of action as {x, y, turn}.
   struct Body {
-    PlanarRobot robot;
+    PileRobot robot;
     Vec3 speeds;
   };
   struct Row {
