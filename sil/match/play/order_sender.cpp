@@ -53,10 +53,10 @@ can::Frame OrderSender::frame(const RobotOrder& order) {
 }
 
 std::optional<RobotOrder> order_in(const can::Frame& frame) {
-  can::WheelOrder wheels;
+  can::WheelOrder speeds;
   can::MotionOrder motion;
-  if (can::is<can::WheelOrder>(frame) && can::receive(frame, wheels) == can::Verdict::accepted) {
-    return SpeedOrder{wheels.left_mm_s / mm_a_m, wheels.right_mm_s / mm_a_m};
+  if (can::is<can::WheelOrder>(frame) && can::receive(frame, speeds) == can::Verdict::accepted) {
+    return SpeedOrder{speeds.left_mm_s / mm_a_m, speeds.right_mm_s / mm_a_m};
   }
   if (can::is<can::MotionOrder>(frame) && can::receive(frame, motion) == can::Verdict::accepted) {
     return MotionOrder{.motion = Motion::kick,

@@ -49,9 +49,9 @@ TEST(OrderSender, WhatIsNoNumberStands) {
 
 TEST(OrderSender, BothKindsCountOn) {
   OrderSender sender;
-  const can::Frame wheels = sender.frame(SpeedOrder{});
+  const can::Frame speeds = sender.frame(SpeedOrder{});
   const can::Frame motion = sender.frame(MotionOrder{});
-  EXPECT_NE(wheels.data[1] & 0xF, motion.data[1] & 0xF);
+  EXPECT_NE(speeds.data[1] & 0xF, motion.data[1] & 0xF);
 }
 
 TEST(OrderSender, ADamagedFrameIsNoOrder) {
