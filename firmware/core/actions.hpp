@@ -47,7 +47,7 @@ struct Actions {
   bool vision_ready = false;             // pictures are fresh, and good for a velocity: arming needs that
   bool wheels_ready = false;             // wheel speeds are fresh
   bool kick_over = false;                // as the last decision said, while armed
-  OrderState orders = OrderState::none;  // while armed
+  OrderState orders = OrderState::none;  // `none`: no team was heard since boot
 };
 
 }  // namespace striker::core

@@ -235,7 +235,7 @@ class Controller {
       now_.plausibility.restart();
       now_.set_point = {};
       now_.kick_over = 0;
-      now_.orders = {};
+      now_.orders = now_.orders.at_arming();
     }
     if (next.state != now_.supervisor.state) {
       now_.consent.close();
@@ -312,7 +312,7 @@ class Controller {
     actions.wheels_ready = conditions.wheels_fresh;
     const bool active = now_.supervisor.state == State::active;
     actions.kick_over = active && now_.kick_over != 0;
-    actions.orders = active ? now_.orders.state() : OrderState::none;
+    actions.orders = now_.orders.state();
   }
 
   Now now_;

@@ -47,6 +47,7 @@ void Operator::hear(std::span<const can::Frame> frames) {
     decisions_ += can::is<can::Decision>(frame) ? 1 : 0;
     if (can::is<can::Status>(frame) && can::receive(frame, status) == can::Verdict::accepted) {
       state_ = static_cast<core::State>(status.state);
+      has_team_ = static_cast<core::OrderState>(status.orders) != core::OrderState::none;
       fault_ = static_cast<core::Fault>(status.fault);
     } else if (can::is<can::Safety>(frame) && can::receive(frame, safety) == can::Verdict::accepted) {
       faults_ = static_cast<core::Faults>(safety.faults);

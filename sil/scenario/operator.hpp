@@ -28,6 +28,8 @@ class Operator {
 
   // By its last status and safety report.
   [[nodiscard]] core::State controller_state() const { return state_; }
+  // It has believed an order of a team since it booted: armed, it stands until it is ordered.
+  [[nodiscard]] bool has_team() const { return has_team_; }
   [[nodiscard]] core::Fault controller_fault() const { return fault_; }
   [[nodiscard]] bool controller_is_stopped() const;
   // The policy's identity from the last version frame, 8 hexadecimal digits; "unknown" before one came.
@@ -43,6 +45,7 @@ class Operator {
   std::optional<can::Mode> asked_;
   std::int32_t challenge_ = 0;  // to be confirmed; 0: none
   core::State state_ = core::State::boot;
+  bool has_team_ = false;
   core::Fault fault_ = core::Fault::none;
   core::Faults faults_ = 0;
   std::string policy_ = "unknown";

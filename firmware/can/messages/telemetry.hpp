@@ -57,7 +57,7 @@ struct Status {
   std::int32_t vision_ready = 0;  // 1: two fresh pictures: the controller could be armed
   std::int32_t wheels_ready = 0;  // 1: the wheel speeds are fresh
   std::int32_t kick_over = 0;  // 1: armed, but the kick has had its decisions: the wheels are told to stand
-  std::int32_t orders = 0;     // core::OrderState, while armed
+  std::int32_t orders = 0;     // core::OrderState; 0: no team was heard since boot
 };
 
 template <>

@@ -31,8 +31,15 @@ inline constexpr std::array<std::string_view, 4> order_state_names = {"none", "m
 // Without padding: it is part of the sealed state (seal.hpp).
 class StandingOrder {
  public:
-  // Once a tick. Where the policy may not act, `set_point` is what the order makes of it. An arming begins with a new
-  // StandingOrder: nothing from before it counts.
+  // How an arming begins: nothing that was ordered before it counts, but that there is a team. So a robot that has had a
+  // believed order since boot never plays by itself when its team is not heard: it stands until it is ordered.
+  [[nodiscard]] StandingOrder at_arming() const {
+    StandingOrder next;
+    next.state_ = state_ == OrderState::none ? OrderState::none : OrderState::lapsed;
+    return next;
+  }
+
+  // Once a tick, armed or not. Where the policy may not act, `set_point` is what the order makes of it.
   void step(const RobotProfile& robot, std::uint32_t tick, const Percepts& percepts, WheelSpeeds& set_point) {
     if (percepts.order && percepts.order->age_ticks <= order_timeout_ticks) {
       received_tick_ = tick - percepts.order->age_ticks;

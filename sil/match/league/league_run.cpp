@@ -55,6 +55,15 @@ std::string line_of(std::uint64_t number, const MatchResult& result) {
   return line.dump();
 }
 
+void require_that_match(const MatchResult& result, const MatchSetting& match, std::uint64_t number) {
+  if (result.teams != match.teams || result.seed != match.seed || !result.complete) {
+    throw std::runtime_error(fmt::format(
+        "matches.jsonl: run {} is not the match {} against {} of seed {}, played to its end: give another --out, or "
+        "remove the line",
+        number, match.teams[0], match.teams[1], match.seed));
+  }
+}
+
 // What the matches in a file are of; others than these are refused there.
 std::string header_of(const LeaguePlan& plan) {
   const MatchSetting& match = plan.match;
@@ -108,6 +117,7 @@ PlayedLeague play_league(const LeaguePlan& plan, const std::function<bool()>& st
   for (const auto& [number, line] : file.runs()) {
     if (number < matches.size()) {
       results.push_back(match_result(nlohmann::ordered_json::parse(line), "matches.jsonl"));
+      require_that_match(results.back(), matches[number], number);
     }
   }
   PlayedLeague league{.table = league_table(results), .played = results.size(), .matches = matches.size()};

@@ -22,7 +22,9 @@ std::optional<can::Mode> RobotOperator::due() const {
   if (operator_.controller_fault() != core::Fault::none) {
     return can::Mode::clear;
   }
-  const bool is_ready = operator_.controller_state() == core::State::standby && pictures_ >= pictures_to_arm;
+  // One that has not heard its team would play by itself.
+  const bool is_ready = operator_.controller_state() == core::State::standby && operator_.has_team() &&
+                        pictures_ >= pictures_to_arm;
   return is_ready ? std::optional(can::Mode::arm) : std::nullopt;
 }
 

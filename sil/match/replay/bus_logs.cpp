@@ -90,10 +90,10 @@ BusLogReader::~BusLogReader() {
   gzclose(stream_of(stream_));
 }
 
-const std::string& BusLogReader::next() {
+std::optional<std::string> BusLogReader::next() {
   std::array<char, 128> piece = {};
-  line_.clear();
-  while (line_.empty() || line_.back() != '\n') {
+  std::string line;
+  while (line.empty() || line.back() != '\n') {
     errno = 0;
     if (gzgets(stream_of(stream_), piece.data(), piece.size()) == nullptr) {
       int error = Z_OK;
@@ -101,12 +101,12 @@ const std::string& BusLogReader::next() {
       if (error != Z_OK && error != Z_STREAM_END) {
         fail(file_, "cannot be read to its end");
       }
-      return line_;
+      return line.empty() ? std::nullopt : std::optional(line);
     }
-    line_ += piece.data();
+    line += piece.data();
   }
-  line_.pop_back();
-  return line_;
+  line.pop_back();
+  return line;
 }
 
 }  // namespace striker::sil

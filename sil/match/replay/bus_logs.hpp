@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,13 +43,12 @@ class BusLogReader {
   BusLogReader(const BusLogReader&) = delete;
   BusLogReader& operator=(const BusLogReader&) = delete;
 
-  // Empty at the end.
-  [[nodiscard]] const std::string& next();
+  // None at the end.
+  [[nodiscard]] std::optional<std::string> next();
 
  private:
   std::filesystem::path file_;
   void* stream_ = nullptr;
-  std::string line_;
 };
 
 }  // namespace striker::sil

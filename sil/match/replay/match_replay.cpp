@@ -15,6 +15,8 @@ namespace striker::sil {
 
 namespace {
 
+constexpr double frame_s = frame_ms / 1e3;
+
 // Gives the orders that a team gave in a recorded match, in their frames.
 class RecordedTeam final : public Strategy {
  public:
@@ -43,7 +45,8 @@ class RecordedTeam final : public Strategy {
   std::optional<RobotOrder> order_at(BusLogReader& log, std::int64_t stamp_us) {
     std::optional<RobotOrder> order;
     for (;;) {
-      const auto parsed = host::parse_candump_line(log.next());
+      const std::string text = log.next().value_or("");
+      const auto parsed = host::parse_candump_line(text);
       const auto* line = std::get_if<host::CandumpLine>(&parsed);
       if (line == nullptr || line->stamp_us > stamp_us) {
         return order;  // nothing of another frame's first tick is lost: this line is of its second
@@ -60,51 +63,49 @@ class RecordedTeam final : public Strategy {
 
 class BusComparison final : public Observer {
  public:
-  BusComparison(const std::filesystem::path& buses, bool complete) : complete_(complete) {
+  explicit BusComparison(const std::filesystem::path& buses) {
     for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
       logs_.push_back(std::make_unique<BusLogReader>(bus_log_file(buses, robot)));
     }
   }
 
   void end_tick(const Snapshot& snapshot) override {
-    for (std::size_t robot = 0; !is_over() && robot < robots_in_match; ++robot) {
+    for (std::size_t robot = 0; !difference_ && robot < robots_in_match; ++robot) {
       for (const StampedFrame& frame : snapshot.robots[robot].frames) {
         compare(snapshot.tick, robot, frame);
       }
     }
   }
   void end_run() override {
-    for (std::size_t robot = 0; !is_over() && robot < robots_in_match; ++robot) {
-      if (const std::string& line = logs_[robot]->next(); !line.empty()) {
-        difference_ = {.tick = 0, .robot = robot, .recorded = line, .now = {}};
+    for (std::size_t robot = 0; !difference_ && robot < robots_in_match; ++robot) {
+      if (const auto line = logs_[robot]->next()) {
+        difference_ = {.tick = tick_, .robot = robot, .recorded = "'" + *line + "'", .now = {}};
       }
     }
   }
 
-  [[nodiscard]] bool is_over() const { return difference_ || ended_; }
   [[nodiscard]] const std::optional<ReplayDifference>& difference() const { return difference_; }
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
  private:
   void compare(std::uint32_t tick, std::size_t robot, const StampedFrame& frame) {
-    if (is_over()) {
+    tick_ = tick;
+    if (difference_) {
       return;
     }
     CandumpText text;
     append_line(text, robot, frame);
     const std::string_view now(text.data(), text.size() - 1);
-    const std::string& recorded = logs_[robot]->next();
-    if (recorded.empty() && !complete_) {
-      ended_ = true;  // it was interrupted here
-    } else if (now != recorded) {
-      difference_ = {.tick = tick, .robot = robot, .recorded = recorded, .now = std::string(now)};
+    const auto recorded = logs_[robot]->next();
+    if (now != recorded) {
+      difference_ = {
+          .tick = tick, .robot = robot, .recorded = recorded.value_or(""), .now = std::string(now)};
     } else {
       ++frames_;
     }
   }
 
-  bool complete_;
-  bool ended_ = false;
+  std::uint32_t tick_ = 0;
   std::vector<std::unique_ptr<BusLogReader>> logs_;
   std::optional<ReplayDifference> difference_;
   std::uint64_t frames_ = 0;
@@ -112,18 +113,19 @@ class BusComparison final : public Observer {
 
 }  // namespace
 
-MatchReplay replay_match(const MatchPlan& plan, bool complete, const std::filesystem::path& buses,
+MatchReplay replay_match(const MatchPlan& plan, std::int64_t frames, const std::filesystem::path& buses,
                          const MatchLinks& links, const std::function<bool()>& stop) {
   RecordedTeam red(buses, Team::red);
   RecordedTeam blue(buses, Team::blue);
-  BusComparison comparison(buses, complete);
+  BusComparison comparison(buses);
   std::array<Observer*, 1> observers = {&comparison};
   MatchParts parts{.teams = {&red, &blue}, .links = {}, .records = {}, .buses = observers};
   for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
     parts.links[robot] = links[robot].get();
   }
   MatchRun run(plan, parts);
-  const MatchEnd end = run.run([&] { return comparison.is_over() || stop(); });
+  const MatchEnd end =
+      run.run([&] { return comparison.difference() || run.simulated_s() >= frames * frame_s || stop(); });
   return {.difference = comparison.difference(), .frames = comparison.frames(), .end = end};
 }
 

@@ -28,9 +28,10 @@ struct MatchReplay {
   MatchEnd end;
 };
 
-// `buses` is the directory of the logs; `complete` says whether the recorded match was played to its end. Throws
+// `buses` is the directory of the logs; `frames` says how many of 50 ms were played: a match that was interrupted is
+// played as far. Throws
 // std::runtime_error that names a log which cannot be read.
-[[nodiscard]] MatchReplay replay_match(const MatchPlan& plan, bool complete,
+[[nodiscard]] MatchReplay replay_match(const MatchPlan& plan, std::int64_t frames,
                                        const std::filesystem::path& buses, const MatchLinks& links,
                                        const std::function<bool()>& stop);
 

@@ -33,6 +33,15 @@ MatchPlan plan_in(const nlohmann::json& match) {
   if (!are_sound(header.rules)) {
     throw std::runtime_error(fmt::format("\"half_ms\" is {}", header.rules.half_ms));
   }
+  if (!(header.slip >= 0.0 && header.slip <= 1.0)) {
+    throw std::runtime_error(fmt::format("\"slip\" is {}, no share from 0 to 1", header.slip));
+  }
+  constexpr double greatest_jitter = 0.1;
+  if (!(header.jitter_m >= 0.0 && header.jitter_m <= greatest_jitter && header.jitter_rad >= 0.0 &&
+        header.jitter_rad <= greatest_jitter)) {
+    throw std::runtime_error(fmt::format("\"jitter_m\", \"jitter_rad\": {} and {} are not both from 0 to {}",
+                                         header.jitter_m, header.jitter_rad, greatest_jitter));
+  }
   plan.plant = *plant;
   if (const auto faults = match.at("faults").get<std::string>(); !faults.empty()) {
     add_faults(plan, faults, "\"faults\"");
@@ -50,7 +59,8 @@ RecordedMatch read_match(const std::filesystem::path& match_json) {
     }
     return {.plan = plan_in(match),
             .end = {.complete = match.at("complete").get<bool>(),
-                    .state_hash = std::stoull(match.at("state_hash").get<std::string>(), nullptr, 16)}};
+                    .state_hash = std::stoull(match.at("state_hash").get<std::string>(), nullptr, 16)},
+            .frames = match.at("flow").at("frames").get<std::int64_t>() - 1};
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format("{}: {}; give a directory that 'striker-sil match --out' wrote",
                                          match_json.string(), error.what()));

@@ -12,6 +12,7 @@ namespace striker::sil {
 struct RecordedMatch {
   MatchPlan plan;
   MatchEnd end;
+  std::int64_t frames = 0;  // of 50 ms that were played
 };
 
 // Throws std::runtime_error that names the file, and the key that is missing or has no meaning.

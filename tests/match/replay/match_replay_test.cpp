@@ -15,17 +15,26 @@ namespace {
 
 class MatchReplayed : public ::testing::Test {
  protected:
-  MatchReplayed() {
+  void SetUp() override {
     std::filesystem::create_directories(directory_);
     ShortMatch match(setting_);
     BusLogs logs(directory_, robots_in_match);
     match.play({}, {&logs});
     end_ = match.end;
   }
-  ~MatchReplayed() override { std::filesystem::remove_all(directory_); }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
 
-  MatchReplay replay(bool complete = true) {
-    return replay_match(plan_of(setting_), complete, directory_, links_in_process(), [] { return false; });
+  MatchReplay replay() {
+    return replay_match(plan_of(setting_), 1'000'000, directory_, links_in_process(), [] { return false; });
+  }
+
+  std::string text_of(std::size_t robot) {
+    BusLogReader reader(bus_log_file(directory_, robot));
+    std::string text;
+    while (const auto line = reader.next()) {
+      text += *line + '\n';
+    }
+    return text;
   }
 
   // Replaces one line of a robot's log, which is plain text afterwards: a reader takes both.
@@ -36,7 +45,8 @@ class MatchReplayed : public ::testing::Test {
     {
       BusLogReader reader(file);
       bool done = false;
-      for (std::string line = reader.next(); !line.empty(); line = reader.next()) {
+      while (const auto recorded = reader.next()) {
+        const std::string& line = *recorded;
         const bool is_it = !done && line.find(with) != std::string::npos;
         text += (is_it ? change(line) : line) + '\n';
         done = done || is_it;
@@ -87,6 +97,17 @@ TEST_F(MatchReplayed, ALineThatIsMissingIsFound) {
   const MatchReplay again = replay();
   ASSERT_TRUE(again.difference);
   EXPECT_EQ(again.difference->robot, 2U);
+}
+
+TEST_F(MatchReplayed, WhatWasCutOffOrAddedIsFound) {
+  const std::string whole = text_of(5);
+  for (const std::string& changed :
+       {std::string(), whole.substr(0, whole.size() / 2), whole + "\n", whole + "\n" + whole}) {
+    std::ofstream(bus_log_file(directory_, 5)) << changed;
+    const MatchReplay again = replay();
+    ASSERT_TRUE(again.difference);
+    EXPECT_EQ(again.difference->robot, 5U);
+  }
 }
 
 TEST_F(MatchReplayed, ALogThatIsNotThereIsNamed) {
