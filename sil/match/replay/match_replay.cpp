@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/match/replay/match_replay.hpp"
 
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -14,8 +15,6 @@
 namespace striker::sil {
 
 namespace {
-
-constexpr double frame_s = frame_ms / 1e3;
 
 // Gives the orders that a team gave in a recorded match, in their frames.
 class RecordedTeam final : public Strategy {
@@ -124,8 +123,9 @@ MatchReplay replay_match(const MatchPlan& plan, std::int64_t frames, const std::
     parts.links[robot] = links[robot].get();
   }
   MatchRun run(plan, parts);
-  const MatchEnd end =
-      run.run([&] { return comparison.difference() || run.simulated_s() >= frames * frame_s || stop(); });
+  const MatchEnd end = run.run([&] {
+    return comparison.difference() || std::llround(run.simulated_s() * 1e3) >= frames * frame_ms || stop();
+  });
   return {.difference = comparison.difference(), .frames = comparison.frames(), .end = end};
 }
 

@@ -157,14 +157,13 @@ TEST(MotionOrder, OfAMotionThatIsNotKnownIsRefused) {
 // Wheel orders take over from the policy in the tick in which they come, and the first of them after arming too.
 TEST(MotionOrder, AFirstWheelOrderEndsTheKickThatArmingBegan) {
   TeamRig rig;
-  rig.order = can::WheelOrder{.left_mm_s = 100, .right_mm_s = -100};
-  rig.phase_ticks = 30;
   rig.live_until(188);
   rig.mode(can::Mode::arm);
   rig.live_until(230);
   EXPECT_EQ(rig.orders(), OrderState::none);
   EXPECT_GT(rig.decisions, 0U);
-  rig.live();
+  rig.order = can::WheelOrder{.left_mm_s = 100, .right_mm_s = -100};
+  rig.live(400);
   EXPECT_EQ(rig.set_point(), (WheelSpeeds{100, -100}));
   rig.decisions = 0;
   rig.live(300);

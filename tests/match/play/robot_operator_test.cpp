@@ -18,6 +18,7 @@ namespace {
 // A bus on which somebody may take frames away, or say something too.
 class MeddledLink final : public ControllerLink {
  public:
+  explicit MeddledLink(ControllerLink& link) : link_(&link) {}
   void send(std::uint32_t tick, std::span<const can::Frame> frames) override {
     std::vector<can::Frame> passed;
     for (const can::Frame& frame : frames) {
@@ -28,15 +29,15 @@ class MeddledLink final : public ControllerLink {
     if (adds) {
       passed.insert(passed.begin(), *adds);
     }
-    link_.send(tick, passed);
+    link_->send(tick, passed);
   }
-  void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override { link_.collect(tick, answer); }
+  void collect(std::uint32_t tick, std::vector<can::Frame>& answer) override { link_->collect(tick, answer); }
 
   std::function<bool(const can::Frame&)> drops;
   std::optional<can::Frame> adds;
 
  private:
-  NodeLink<loop::OrderedNode> link_{core::profile_of(core::defender)};
+  ControllerLink* link_;
 };
 
 class RobotOperated : public ::testing::Test {
@@ -79,9 +80,11 @@ class RobotOperated : public ::testing::Test {
   }
 
   World world_;
-  MeddledLink link_;
+  NodeLink<loop::OrderedNode> controller_{core::profile_of(core::defender)};
+  MeddledLink link_{controller_};
   MatchRobot robot_;
   std::uint32_t tick_ = 0;
+  std::uint32_t run_ticks_ = 0;
   bool shows_pictures = true;
   SpeedOrder order = {0.3, 0.3};
 };
@@ -147,6 +150,46 @@ TEST_F(RobotOperated, AnEmergencyStopIsNot) {
   link_.adds = {};
   EXPECT_EQ(ticks_until_armed(), -1);
   EXPECT_TRUE(robot_.heard().controller_is_stopped());
+}
+
+// The forward knows a kick that it would play by itself.
+TEST_F(RobotOperated, AForwardWhoseTeamIsNotHeardDoesNotMove) {
+  NodeLink<loop::BuiltInNode> controller{core::profile_of(core::forward)};
+  MeddledLink link(controller);
+  World world({.robots = {robot_spec(Role::forward)}});
+  MatchRobot forward(0, core::forward, make_plant(PlantKind::servo, 0, robot_spec(Role::forward)), link);
+  const auto is_order = [](const can::Frame& frame) {
+    return can::is<can::WheelOrder>(frame) || can::is<can::MotionOrder>(frame);
+  };
+  for (const bool heard_before : {false, true}) {
+    link.drops = is_order;
+    for (std::uint32_t tick = 0; tick < 6'000; ++tick) {
+      if (tick == 0 || tick == 3'000) {
+        world.place_robot(0, {});
+        forward.was_placed();
+        forward.is_wanted(true);
+      }
+      if (tick % 50 == 0) {
+        forward.sees(world, run_ticks_ + tick);
+        forward.is_told(SpeedOrder{}, run_ticks_ + tick);
+      }
+      forward.begin_tick(run_ticks_ + tick);
+      forward.end_tick(run_ticks_ + tick);
+      if (tick % 10 == 0) {
+        forward.actuate(world, run_ticks_ + tick);
+        world.step();
+        forward.sense(world);
+      }
+      ASSERT_NEAR(world.robot_pose(0).x_m, 0.0, 0.01)
+          << "tick " << tick << ", heard before: " << heard_before;
+      if (heard_before && tick < 2'000) {
+        link.drops = {};
+      } else {
+        link.drops = is_order;
+      }
+    }
+    run_ticks_ += 6'000;
+  }
 }
 
 TEST_F(RobotOperated, ARunOfMinutesIsRenewed) {
