@@ -112,7 +112,7 @@ class Replay(files_case.FilesCase):
                      "(0000000000.000000) vcan0 030#001122334455667788", "(0000000000.000000) vcan0 930#00"):
             self.refuse(self.file("bad.log", sound + line + "\n"), "bad.log: line 2: ", "mend or remove the line")
         self.refuse(self.file("empty.log", ""), "no SYNC in it", "--log")
-        self.refuse(self.file("none.log"), "cannot be read", "name a candump log")
+        self.refuse(self.file("none.log"), "none.log", "cannot be read")
 
 
 if __name__ == "__main__":
