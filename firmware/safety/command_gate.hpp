@@ -200,7 +200,9 @@ class CommandGate {
   }
   std::int32_t limited(std::int32_t wanted_mNm, std::int32_t before_mNm) {
     const std::int32_t torque_mNm = bounded(wanted_mNm, limits_.torque_mNm, can::limit_torque);
-    return before_mNm + bounded(torque_mNm - before_mNm, limits_.slew_mNm, can::limit_slew);
+    // What the gate remembers may have changed by itself: no memory leads beyond the limit.
+    const std::int32_t from_mNm = std::clamp(before_mNm, -limits_.torque_mNm, limits_.torque_mNm);
+    return from_mNm + bounded(torque_mNm - from_mNm, limits_.slew_mNm, can::limit_slew);
   }
   std::int32_t bounded(std::int32_t value, std::int32_t limit, std::uint32_t name) {
     const std::int32_t inside = std::clamp(value, -limit, limit);
