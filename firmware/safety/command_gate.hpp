@@ -200,12 +200,16 @@ class CommandGate {
   }
   std::int32_t limited(std::int32_t wanted_mNm, std::int32_t before_mNm) {
     const std::int32_t torque_mNm = bounded(wanted_mNm, limits_.torque_mNm, can::limit_torque);
-    // What the gate remembers may have changed by itself: no memory leads beyond the limit.
-    const std::int32_t from_mNm = std::clamp(before_mNm, -limits_.torque_mNm, limits_.torque_mNm);
+    const std::int32_t from_mNm = within(before_mNm, limits_.torque_mNm);
     return from_mNm + bounded(torque_mNm - from_mNm, limits_.slew_mNm, can::limit_slew);
   }
+  // What the gate keeps may change by itself: neither a remembered torque nor a limit that became negative leads beyond
+  // what a limit allows.
+  static std::int32_t within(std::int32_t value, std::int32_t limit) {
+    return limit < 0 ? 0 : std::clamp(value, -limit, limit);
+  }
   std::int32_t bounded(std::int32_t value, std::int32_t limit, std::uint32_t name) {
-    const std::int32_t inside = std::clamp(value, -limit, limit);
+    const std::int32_t inside = within(value, limit);
     active_limits_ |= inside == value ? 0 : name;
     return inside;
   }

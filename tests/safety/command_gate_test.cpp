@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <optional>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "firmware/can/drives/striker_drives.hpp"
@@ -198,6 +200,23 @@ TEST(CommandGate, BeingArmedEndsAndIsRenewed) {
     held.tick(i % 5'000 == 0 ? std::vector{held.mode(Mode::renew)} : std::vector<can::Frame>{});
   }
   EXPECT_TRUE(held.moves());
+}
+
+// A bit of the gate's own memory changes by itself while a sound controller drives.
+TEST(GateMemory, NoFlippedBitLeadsATorqueBeyondTheLimit) {
+  Bench armed;
+  armed.arm();
+  armed.run(3);
+  ASSERT_TRUE(armed.moves());
+  for (std::size_t bit = 0; bit < 8 * sizeof(Gate); ++bit) {
+    Bench bench = armed;
+    std::as_writable_bytes(std::span(&bench.gate, 1))[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+    for (int i = 0; i < 5; ++i) {
+      bench.tick();
+      ASSERT_LE(std::abs(bench.passed.left_torque_mNm), limits.torque_mNm) << "bit " << bit;
+      ASSERT_LE(std::abs(bench.passed.right_torque_mNm), limits.torque_mNm) << "bit " << bit;
+    }
+  }
 }
 
 TEST(CommandGate, LimitsAreKeptAndToldAndAreNoFault) {
