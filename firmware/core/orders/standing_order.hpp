@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The team's order that an armed controller follows, and for how long.
+// The team's order that a controller follows once it is armed, and for how long.
 //
-//   none     since arming no order was taken: the policy acts, as it does without a team
+//   none     since boot no order was taken: the policy acts, as it does without a team
 //   motion   the policy acts, from the order that began the motion
 //   wheels   the set-points are the order's, each cut to the robot's top speed
-//   lapsed   orders were taken, but none is good now: the wheels are told to stand
+//   lapsed   orders were taken, but none since arming, or none that is good now: the wheels are told to stand
 //
 // An order is good for `order_timeout_ticks` from its reception, and until the team's messages cannot be believed any
-// more. Only a disarm leads back to `none`; what comes while disarmed does not count.
+// more. Orders are heard while disarmed too, but none of them moves anything after arming: the next one does.
 //
 // A motion goes on while orders with its number come. It is over for good when it was left, for wheels or because its
 // order was not good any more: only another number begins one then, as after its decisions. Right after arming every

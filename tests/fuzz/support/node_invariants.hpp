@@ -52,7 +52,7 @@ class Invariants {
     const std::uint32_t elapsed = !begun_ || goes_back ? 0 : tick.number - before_tick_;
     if (tick.restart) {
       wheels_age_ = vision_age_ = order_age_ = challenge_age_ = stop_age_ = never;
-      counter_known_ = false;
+      counter_known_ = team_told_ = false;
     }
     for (std::uint32_t* age :
          {&wheels_age_, &vision_age_, &order_age_, &stop_age_, &challenge_age_, &armed_age_}) {
@@ -141,7 +141,7 @@ class Invariants {
     check_command(sent.back(), now);
   }
 
-  void check_report(const can::Frame& frame, const Told& now) const {
+  void check_report(const can::Frame& frame, const Told& now) {
     can::Status status;
     can::FaultReport report;
     can::Safety safety;
@@ -151,9 +151,10 @@ class Invariants {
               "Status tells what is");
       const auto orders = static_cast<core::OrderState>(status.orders);
       const bool followed = orders == core::OrderState::motion || orders == core::OrderState::wheels;
-      require(orders == core::OrderState::none || now.state == core::State::active,
-              "only an armed controller is under orders");
-      require(!followed || order_age_ <= core::order_timeout_ticks, "an order that is followed is good");
+      require(!team_told_ || orders != core::OrderState::none, "a team that was heard is not forgotten");
+      team_told_ = orders != core::OrderState::none;
+      require(now.state != core::State::active || !followed || order_age_ <= core::order_timeout_ticks,
+              "an order that is followed is good");
     } else if (can::is<can::FaultReport>(frame)) {
       require(holds(frame, report) && report.code == static_cast<std::int32_t>(now.fault),
               "FaultReport tells what is");
@@ -191,6 +192,7 @@ class Invariants {
   std::uint32_t wheels_age_ = never;
   std::uint32_t vision_age_ = never;
   std::uint32_t order_age_ = never;
+  bool team_told_ = false;
   std::uint32_t stop_age_ = never;
   std::uint32_t armed_age_ = never;
   can::Challenge challenge_;  // the last one that was told

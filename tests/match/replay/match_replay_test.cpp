@@ -101,8 +101,11 @@ TEST_F(MatchReplayed, ALineThatIsMissingIsFound) {
 
 TEST_F(MatchReplayed, WhatWasCutOffOrAddedIsFound) {
   const std::string whole = text_of(5);
-  for (const std::string& changed :
-       {std::string(), whole.substr(0, whole.size() / 2), whole + "\n", whole + "\n" + whole}) {
+  std::string prolonged = whole;
+  prolonged.append("\n");
+  std::string doubled = prolonged;
+  doubled.append(whole);
+  for (const std::string& changed : {std::string(), whole.substr(0, whole.size() / 2), prolonged, doubled}) {
     std::ofstream(bus_log_file(directory_, 5)) << changed;
     const MatchReplay again = replay();
     ASSERT_TRUE(again.difference);
