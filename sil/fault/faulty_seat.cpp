@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -36,6 +37,21 @@ std::vector<TimedFault> of_kind(const std::vector<TimedFault>& faults, FaultKind
   std::copy_if(faults.begin(), faults.end(), std::back_inserter(result),
                [&](const TimedFault& fault) { return fault.fault.kind == kind; });
   return result;
+}
+
+// How many of those that were sent did not come; what came beside them does not count.
+int missing_of(std::span<const can::Frame> sent, std::span<const can::Frame> came) {
+  std::vector<can::Frame> rest(came.begin(), came.end());
+  int missing = 0;
+  for (const can::Frame& frame : sent) {
+    const auto found = std::ranges::find(rest, frame);
+    if (found == rest.end()) {
+      ++missing;
+    } else {
+      rest.erase(found);
+    }
+  }
+  return missing;
 }
 
 void require_possible(const std::vector<TimedFault>& faults, bool in_process) {
@@ -122,6 +138,11 @@ void FaultySeat::add_part_faults(const std::vector<TimedFault>& faults, std::uin
 WatchedParts FaultySeat::watched() const {
   return {
       .at_seat = *at_seat_, .at_controller = *at_controller_, .drives = parts_.drives, .plant = parts_.plant};
+}
+
+int FaultySeat::frames_not_through() const {
+  return missing_of(at_seat_->to_controller(), at_controller_->to_controller()) +
+         missing_of(at_controller_->from_controller(), at_seat_->from_controller());
 }
 
 std::vector<std::uint32_t> FaultySeat::reboots() const {

@@ -47,6 +47,9 @@ class FaultySeat {
   [[nodiscard]] Observer& clock() { return clock_; }
   [[nodiscard]] WatchedParts watched() const;
   [[nodiscard]] std::vector<std::uint32_t> reboots() const;
+  // How many frames of the last tick did not come out at the other end, in it and as they were: lost, late or altered,
+  // to the controller or from it.
+  [[nodiscard]] int frames_not_through() const;
 
  private:
   class Clock final : public Observer {

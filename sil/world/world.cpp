@@ -249,6 +249,10 @@ double World::yaw_rate_rad_s(std::size_t robot) const {
   return dBodyGetAngularVel(impl_->robots.at(robot).body)[2];
 }
 
+double World::robot_height_m(std::size_t robot) const {
+  return dBodyGetPosition(impl_->robots.at(robot).body)[2];
+}
+
 double World::robot_up(std::size_t robot) const {
   constexpr std::size_t up_z = 10;  // row z, column z of ODE's rows of four
   return dBodyGetRotation(impl_->robots.at(robot).body)[up_z];

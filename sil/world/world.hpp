@@ -92,6 +92,8 @@ class World {
   [[nodiscard]] Vec2 robot_velocity_m_s(std::size_t robot) const;
   // Anticlockwise about the vertical.
   [[nodiscard]] double yaw_rate_rad_s(std::size_t robot) const;
+  // Of the body's centre of mass above the floor: `centre_of_mass_height_m` where it stands.
+  [[nodiscard]] double robot_height_m(std::size_t robot) const;
   // The vertical share of the robot's up axis: 1 upright, 0 on a side, -1 on its roof. Tilted by an angle it is
   // the angle's cosine.
   [[nodiscard]] double robot_up(std::size_t robot) const;

@@ -59,6 +59,7 @@ void MatchRobot::end_tick(std::uint32_t tick) {
   seat_->end_tick(tick);
   if (faulty_seat_) {
     faulty_seat_->clock().end_tick({.tick = tick, .robots = {}, .ball = {}});
+    lost_frames_ += faulty_seat_->frames_not_through();
   }
   operator_.hear(seat_->answer());
   const auto is_at_limit = [this](const WheelOrder& wheel) {
@@ -70,17 +71,20 @@ void MatchRobot::end_tick(std::uint32_t tick) {
 RobotRecord MatchRobot::take_record(const World& world, std::uint32_t tick) {
   const RimSpeeds rim = plant_->measured();
   const WheelOrders& orders = drives_.orders();
-  return {.velocity_m_s = world.robot_velocity_m_s(seat_->robot()),
-          .turn_rate_rad_s = world.yaw_rate_rad_s(seat_->robot()),
-          .rim_speeds_m_s = {rim.left_m_s, rim.right_m_s},
-          .set_points_m_s = {orders[0].rim_speed_m_s, orders[1].rim_speed_m_s},
-          .up = world.robot_up(seat_->robot()),
-          .state = operator_.heard().controller_state(),
-          .fault = operator_.heard().controller_fault(),
-          .order_age_ms =
-              last_order_tick_ ? std::optional(static_cast<int>(tick - *last_order_tick_)) : std::nullopt,
-          .lost_frames = 0,
-          .saturated_ticks = std::exchange(saturated_ticks_, 0)};
+  const double up = world.robot_up(seat_->robot());
+  return {
+      .velocity_m_s = world.robot_velocity_m_s(seat_->robot()),
+      .turn_rate_rad_s = world.yaw_rate_rad_s(seat_->robot()),
+      .rim_speeds_m_s = {rim.left_m_s, rim.right_m_s},
+      .set_points_m_s = {orders[0].rim_speed_m_s, orders[1].rim_speed_m_s},
+      .up = up,
+      .height_m = world.robot_height_m(seat_->robot()) + up * (standing_height_m - centre_of_mass_height_m),
+      .state = operator_.heard().controller_state(),
+      .fault = operator_.heard().controller_fault(),
+      .order_age_ms =
+          last_order_tick_ ? std::optional(static_cast<int>(tick - *last_order_tick_)) : std::nullopt,
+      .lost_frames = std::exchange(lost_frames_, 0),
+      .saturated_ticks = std::exchange(saturated_ticks_, 0)};
 }
 
 }  // namespace striker::sil

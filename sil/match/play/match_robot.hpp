@@ -77,6 +77,7 @@ class MatchRobot {
   std::optional<RobotOrder> last_order_;
   std::optional<std::uint32_t> last_order_tick_;
   int saturated_ticks_ = 0;
+  int lost_frames_ = 0;
 };
 
 }  // namespace striker::sil

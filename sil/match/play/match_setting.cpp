@@ -1,11 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/match/play/match_setting.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <numbers>
 
+#include "firmware/policy/built_in.hpp"
+#include "sil/match/team/strategies.hpp"
 #include "sil/world/random_streams.hpp"
 
 namespace striker::sil {
+
+namespace {
+
+std::string identity_of(const std::string& team) {
+  const auto names = strategy_names();
+  const auto found = std::ranges::find(names, team, &StrategyName::name);
+  return found != names.end() && found->orders_motions ? fmt::format("{:08x}", policy::built_in.identity)
+                                                       : std::string();
+}
+
+}  // namespace
+
+std::array<std::string, 2> identities_of(const std::array<std::string, 2>& names) {
+  return {identity_of(names[0]), identity_of(names[1])};
+}
 
 MatchPlan plan_of(const MatchSetting& setting) {
   constexpr double rad_a_deg = std::numbers::pi / 180.0;
@@ -19,7 +39,8 @@ MatchPlan plan_of(const MatchSetting& setting) {
                  .slip = setting.slip,
                  .jitter_m = setting.jitter_mm / 1e3,
                  .jitter_rad = setting.jitter_mm / 10.0 * rad_a_deg,
-                 .faults = {}};
+                 .faults = {},
+                 .identities = identities_of(setting.teams)};
   plan.header.rules.half_ms = setting.half_s * 1000;
   return plan;
 }

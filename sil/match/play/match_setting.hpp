@@ -22,6 +22,9 @@ struct MatchSetting {
 
 [[nodiscard]] MatchPlan plan_of(const MatchSetting& setting);
 
+// What teams of these names play with in this build (MatchHeader::identities).
+[[nodiscard]] std::array<std::string, 2> identities_of(const std::array<std::string, 2>& names);
+
 // For a strategy that draws: another one for each colour.
 [[nodiscard]] std::uint64_t team_seed(const MatchSetting& setting, Team team);
 

@@ -45,7 +45,7 @@ struct RobotRecord {
   core::State state = core::State::standby;   // by its last status
   core::Fault fault = core::Fault::none;
   std::optional<int> order_age_ms;  // since its last order came; none: it never had one
-  int lost_frames = 0;              // on its bus, in this frame
+  int lost_frames = 0;              // on its bus, in this frame: lost, late or altered on the way
   int saturated_ticks = 0;          // of the frame's: a wheel was told its torque limit
 };
 

@@ -113,12 +113,13 @@ class BusComparison final : public Observer {
 }  // namespace
 
 MatchReplay replay_match(const MatchPlan& plan, std::int64_t frames, const std::filesystem::path& buses,
-                         const MatchLinks& links, const std::function<bool()>& stop) {
+                         const MatchLinks& links, std::span<MatchObserver* const> records,
+                         const std::function<bool()>& stop) {
   RecordedTeam red(buses, Team::red);
   RecordedTeam blue(buses, Team::blue);
   BusComparison comparison(buses);
   std::array<Observer*, 1> observers = {&comparison};
-  MatchParts parts{.teams = {&red, &blue}, .links = {}, .records = {}, .buses = observers};
+  MatchParts parts{.teams = {&red, &blue}, .links = {}, .records = records, .buses = observers};
   for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
     parts.links[robot] = links[robot].get();
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "sil/match/play/match_links.hpp"
@@ -29,10 +30,11 @@ struct MatchReplay {
 };
 
 // `buses` is the directory of the logs; `frames` says how many of 50 ms were played: a match that was interrupted is
-// played as far. Throws
-// std::runtime_error that names a log which cannot be read.
+// played as far. `records` see the match as it comes out. Throws std::runtime_error that names a log which cannot be
+// read.
 [[nodiscard]] MatchReplay replay_match(const MatchPlan& plan, std::int64_t frames,
                                        const std::filesystem::path& buses, const MatchLinks& links,
+                                       std::span<MatchObserver* const> records,
                                        const std::function<bool()>& stop);
 
 }  // namespace striker::sil

@@ -9,6 +9,7 @@
 
 #include "firmware/host/files.hpp"
 #include "sil/match/play/match_faults.hpp"
+#include "sil/match/play/match_setting.hpp"
 
 namespace striker::sil {
 
@@ -18,6 +19,7 @@ MatchPlan plan_in(const nlohmann::json& match) {
   MatchPlan plan;
   MatchHeader& header = plan.header;
   match.at("teams").get_to(header.teams);
+  header.identities = identities_of(header.teams);
   match.at("seed").get_to(header.seed);
   match.at("plant").get_to(header.plant);
   match.at("slip").get_to(header.slip);
@@ -65,6 +67,26 @@ RecordedMatch read_match(const std::filesystem::path& match_json) {
     throw std::runtime_error(fmt::format("{}: {}; give a directory that 'striker-sil match --out' wrote",
                                          match_json.string(), error.what()));
   }
+}
+
+std::optional<std::string> first_other_value(const std::filesystem::path& match_json,
+                                             const nlohmann::ordered_json& now) {
+  auto recorded = nlohmann::json::parse(host::read_file(match_json));
+  nlohmann::json again = nlohmann::json::parse(now.dump());
+  for (const char* of_build : {"version", "git_hash", "build_type"}) {
+    recorded.erase(of_build);
+    again.erase(of_build);
+  }
+  const nlohmann::json differences = nlohmann::json::diff(recorded, again);
+  if (differences.empty()) {
+    return std::nullopt;
+  }
+  const auto path = differences.front().at("path").get<std::string>();
+  const nlohmann::json::json_pointer place(path);
+  const auto value_in = [&](const nlohmann::json& report) {
+    return report.contains(place) ? report.at(place).dump() : std::string("not there");
+  };
+  return fmt::format("{} is {}, now {}", path, value_in(recorded), value_in(again));
 }
 
 }  // namespace striker::sil

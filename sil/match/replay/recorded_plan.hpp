@@ -4,6 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
 
 #include "sil/match/play/match_run.hpp"
 
@@ -17,5 +20,10 @@ struct RecordedMatch {
 
 // Throws std::runtime_error that names the file, and the key that is missing or has no meaning.
 [[nodiscard]] RecordedMatch read_match(const std::filesystem::path& match_json);
+
+// The first value of a recorded match.json that the match played again does not give: "/red/goals is 3, now 2". What
+// says with which build it was played does not count.
+[[nodiscard]] std::optional<std::string> first_other_value(const std::filesystem::path& match_json,
+                                                           const nlohmann::ordered_json& now);
 
 }  // namespace striker::sil

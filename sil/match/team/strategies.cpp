@@ -43,7 +43,8 @@ const std::array entries = {
           rules_team<ReverseSteering::published, false>},
     Entry{{"rules-passing", "AI Soccer's rule-based player A: as rules, and it tries to pass"},
           rules_team<ReverseSteering::corrected, true>},
-    Entry{{"striker", "this project's: prediction, one chaser, spots, and the learned kick where it pays"},
+    Entry{{"striker", "this project's: prediction, one chaser, spots, and the learned kick where it pays",
+           true},
           striker_team<true>},
     Entry{{"striker-driving", "the same without the learned kick"}, striker_team<false>},
 };

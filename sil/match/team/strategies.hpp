@@ -13,7 +13,8 @@ namespace striker::sil {
 
 struct StrategyName {
   std::string_view name;
-  std::string_view help;  // a line, without a full stop
+  std::string_view help;        // a line, without a full stop
+  bool orders_motions = false;  // it plays with what the forwards' policy has learned
 };
 
 [[nodiscard]] std::span<const StrategyName> strategy_names();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,13 +29,17 @@ namespace {
 // Score and clock on stderr.
 class MatchProgress final : public MatchObserver {
  public:
+  // Of a match that ends after so much simulated time; 0: of a whole one.
+  explicit MatchProgress(double first_s) : first_s_(static_cast<int>(std::ceil(first_s))) {}
+
   void begin(const MatchHeader& header) override {
     half_s_ = header.rules.half_ms / 1000;
-    line_ = std::make_unique<host::ProgressLine>("second", 2 * half_s_);
+    line_ = std::make_unique<host::ProgressLine>("second", first_s_ > 0 ? first_s_ : 2 * half_s_);
   }
   void frame(const MatchFrame& frame) override {
     const Ruling& ruling = frame.ruling;
-    const int done_s = (ruling.half - 1) * half_s_ + ruling.clock_ms / 1000;
+    const int done_s = first_s_ > 0 ? static_cast<int>(ruling.sim_ms / 1000)
+                                    : (ruling.half - 1) * half_s_ + ruling.clock_ms / 1000;
     if (done_s != shown_s_ && line_->due(done_s)) {
       shown_s_ = done_s;
       line_->show(done_s, fmt::format("{}:{}", ruling.score[0], ruling.score[1]));
@@ -43,6 +48,7 @@ class MatchProgress final : public MatchObserver {
   void end(const MatchEnd&) override { line_->finish(); }
 
  private:
+  int first_s_;
   int half_s_ = 0;
   int shown_s_ = 0;
   std::unique_ptr<host::ProgressLine> line_;
@@ -63,7 +69,8 @@ std::unique_ptr<Strategy> make_team(const MatchOptions& options, Team team) {
     return std::make_unique<TcpStrategy>(
         TcpOptions{.port = *port,
                    .answer_timeout = std::chrono::milliseconds(options.answer_timeout_ms),
-                   .half_ms = options.setting.half_s * 1000});
+                   .half_ms = options.setting.half_s * 1000,
+                   .stop = host::stop_requested});
   }
   return make_strategy(name, team_seed(options.setting, team));
 }
@@ -122,7 +129,7 @@ int play_match(const MatchOptions& options) {
   for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
     parts.links[robot] = links[robot].get();
   }
-  MatchProgress progress;
+  MatchProgress progress(options.first_s);
   std::vector<MatchObserver*> records = {&progress};
   std::vector<std::unique_ptr<MatchObserver>> files;
   if (!options.out.empty()) {

@@ -6,6 +6,7 @@
 #include "firmware/core/tick.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "sil/match/record/match_report.hpp"
 #include "sil/match/replay/match_replay.hpp"
 #include "sil/match/replay/recorded_plan.hpp"
 #include "sil/programs/replay_command.hpp"
@@ -13,6 +14,11 @@
 namespace striker::sil {
 
 namespace {
+
+struct Figures final : MatchObserver {
+  void frame(const MatchFrame& frame) override { statistics.add(frame); }
+  MatchStatistics statistics;
+};
 
 void tell(const ReplayDifference& difference) {
   fmt::print("tick {}, frame {}, robot {}: recorded {}, now {}\n", difference.tick,
@@ -25,8 +31,10 @@ void tell(const ReplayDifference& difference) {
 
 int play_match_again(const std::filesystem::path& directory) {
   const RecordedMatch recorded = read_match(directory / "match.json");
+  Figures figures;
+  const std::array<MatchObserver*, 1> records = {&figures};
   const MatchReplay again = replay_match(recorded.plan, recorded.frames, directory / "bus",
-                                         links_in_process(), host::stop_requested);
+                                         links_in_process(), records, host::stop_requested);
   if (again.difference) {
     tell(*again.difference);
     return exit_differs;
@@ -37,6 +45,12 @@ int play_match_again(const std::filesystem::path& directory) {
   fmt::print("{} frames on ten buses, all as recorded; state {:016x}\n", again.frames, again.end.state_hash);
   if (again.end.state_hash != recorded.end.state_hash) {
     fmt::print("but the match ended in state {:016x}\n", recorded.end.state_hash);
+    return exit_differs;
+  }
+  const auto now = match_json(recorded.plan.header, figures.statistics.figures(),
+                              {.complete = recorded.end.complete, .state_hash = again.end.state_hash});
+  if (const auto other = first_other_value(directory / "match.json", now)) {
+    fmt::print("but in match.json {}\n", *other);
     return exit_differs;
   }
   return 0;

@@ -28,14 +28,19 @@ struct ShortMatch {
   }
 
   void play(
-      std::vector<MatchObserver*> records, std::vector<Observer*> buses,
+      const std::vector<MatchObserver*>& records, const std::vector<Observer*>& buses,
+      const std::function<bool()>& stop = [] { return false; }) {
+    play(plan_of(setting), records, buses, stop);
+  }
+  void play(
+      const MatchPlan& plan, const std::vector<MatchObserver*>& records, const std::vector<Observer*>& buses,
       const std::function<bool()>& stop = [] { return false; }) {
     MatchParts parts{
         .teams = {strategies[0].get(), strategies[1].get()}, .links = {}, .records = records, .buses = buses};
     for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
       parts.links[robot] = links[robot].get();
     }
-    MatchRun run(plan_of(setting), parts);
+    MatchRun run(plan, parts);
     end = run.run(stop);
     last = run.ruling();
   }

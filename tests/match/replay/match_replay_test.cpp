@@ -5,9 +5,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
+#include "sil/match/record/match_report.hpp"
 #include "sil/match/replay/bus_logs.hpp"
+#include "sil/match/replay/recorded_plan.hpp"
 #include "tests/match/play/watched_match.hpp"
 
 namespace striker::sil {
@@ -19,13 +22,17 @@ class MatchReplayed : public ::testing::Test {
     std::filesystem::create_directories(directory_);
     ShortMatch match(setting_);
     BusLogs logs(directory_, robots_in_match);
-    match.play({}, {&logs});
+    MatchReport report(report_);
+    match.play({&report}, {&logs});
     end_ = match.end;
   }
   void TearDown() override { std::filesystem::remove_all(directory_); }
 
   MatchReplay replay() {
-    return replay_match(plan_of(setting_), 1'000'000, directory_, links_in_process(), [] { return false; });
+    again_ = {};
+    const std::array<MatchObserver*, 1> records = {&again_};
+    return replay_match(plan_of(setting_), 1'000'000, directory_, links_in_process(), records,
+                        [] { return false; });
   }
 
   std::string text_of(std::size_t robot) {
@@ -56,10 +63,17 @@ class MatchReplayed : public ::testing::Test {
     std::ofstream(file) << text;
   }
 
+  struct Again final : MatchObserver {
+    void frame(const MatchFrame& frame) override { statistics.add(frame); }
+    MatchStatistics statistics;
+  };
+
   MatchSetting setting_ = {.teams = {"rules", "random"}, .seed = 8, .half_s = 4};
   std::filesystem::path directory_ =
       std::filesystem::path(::testing::TempDir()) /
       ("match_replay_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  std::filesystem::path report_ = directory_ / "match.json";
+  Again again_;
   MatchEnd end_;
 };
 
@@ -68,6 +82,37 @@ TEST_F(MatchReplayed, TheSameMatchComesOut) {
   EXPECT_FALSE(again.difference) << again.difference->recorded << " is now " << again.difference->now;
   EXPECT_EQ(again.end.state_hash, end_.state_hash);
   EXPECT_GT(again.frames, 100'000U);
+}
+
+// But for what the match is played by anew: with another one of these it is another match.
+TEST_F(MatchReplayed, EveryEditedFigureOfTheReportIsFound) {
+  const std::set<std::string> played_by = {"/seed",       "/plant",  "/slip",     "/jitter_m",
+                                           "/jitter_rad", "/faults", "/rule_set", "/rules/half_ms"};
+  const std::set<std::string> of_build = {"/version", "/git_hash", "/build_type"};
+  const MatchReplay again = replay();
+  const auto other_value = [&] {
+    const MatchHeader header = read_match(report_).plan.header;
+    return first_other_value(report_, match_json(header, again_.statistics.figures(), again.end));
+  };
+  EXPECT_EQ(other_value(), std::nullopt);
+  const auto sound = nlohmann::json::parse(std::ifstream(report_));
+  const auto flat = sound.flatten();
+  int edited = 0;
+  for (const auto& [path, value] : flat.items()) {
+    if (played_by.contains(path) || of_build.contains(path)) {
+      continue;
+    }
+    auto other = sound;
+    other[nlohmann::json::json_pointer(path)] =
+        value.is_string() ? nlohmann::json("other") : nlohmann::json(-17);
+    std::ofstream(report_) << other;
+    try {
+      EXPECT_TRUE(other_value()) << path;
+    } catch (const std::runtime_error&) {  // it has no meaning any more
+    }
+    ++edited;
+  }
+  EXPECT_GT(edited, 200);
 }
 
 TEST_F(MatchReplayed, OneAlteredBitOfACommandIsFound) {

@@ -81,7 +81,7 @@ struct RobotFigures {
   int order_frames = 0;
   int order_age_max_ms = 0;
   int saturated_ticks = 0;                                // while it may play
-  int lost_frames = 0;                                    // on its bus, in pauses too
+  int lost_frames = 0;                                    // on its bus, in pauses too: lost, late or altered
   std::array<int, core::fault_names.size()> faults = {};  // that began, in pauses too
 };
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace striker::sil {
 
@@ -20,29 +21,13 @@ namespace {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-// Whether there is something to read, room to write or a hang-up by then; at least one look.
-bool is_ready(int file, short events, PlayerSocket::Deadline deadline) {
-  while (true) {
-    const auto left =
-        std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
-    pollfd polled = {.fd = file, .events = events, .revents = 0};
-    const int ready = poll(&polled, 1, static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 60'000)));
-    if (ready > 0) {
-      return true;
-    }
-    if ((ready < 0 && errno != EINTR) || std::chrono::steady_clock::now() >= deadline) {
-      return false;
-    }
-  }
-}
-
 bool may_come_again(int error) {
   return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
 }
 
 }  // namespace
 
-PlayerSocket::PlayerSocket(std::uint16_t port) {
+PlayerSocket::PlayerSocket(std::uint16_t port, std::function<bool()> stop) : stop_(std::move(stop)) {
   listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (listener_ < 0) {
     fail("a socket for a player");
@@ -68,6 +53,23 @@ PlayerSocket::PlayerSocket(std::uint16_t port) {
 PlayerSocket::~PlayerSocket() {
   hang_up();
   stop_listening();
+}
+
+bool PlayerSocket::is_ready(int file, short events, Deadline deadline) const {
+  constexpr std::int64_t longest_ms = 100;  // between two looks at `stop`
+  while (true) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    pollfd polled = {.fd = file, .events = events, .revents = 0};
+    const int ready =
+        poll(&polled, 1, static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, longest_ms)));
+    if (ready > 0) {
+      return true;
+    }
+    if ((ready < 0 && errno != EINTR) || std::chrono::steady_clock::now() >= deadline || (stop_ && stop_())) {
+      return false;
+    }
+  }
 }
 
 bool PlayerSocket::accept(Deadline deadline) {

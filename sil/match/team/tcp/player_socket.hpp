@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 namespace striker::sil {
@@ -13,8 +14,9 @@ class PlayerSocket {
  public:
   using Deadline = std::chrono::steady_clock::time_point;
 
-  // Listens from now on. Port 0: any free one. Throws std::system_error if it cannot.
-  explicit PlayerSocket(std::uint16_t port);
+  // Listens from now on. Port 0: any free one. `stop` ends every wait early, within 100 ms. Throws std::system_error if
+  // it cannot listen.
+  explicit PlayerSocket(std::uint16_t port, std::function<bool()> stop = {});
   ~PlayerSocket();
   PlayerSocket(const PlayerSocket&) = delete;
   PlayerSocket& operator=(const PlayerSocket&) = delete;
@@ -32,7 +34,10 @@ class PlayerSocket {
 
  private:
   void stop_listening();
+  // Whether there is something to read, room to write or a hang-up by then; at least one look.
+  [[nodiscard]] bool is_ready(int file, short events, Deadline deadline) const;
 
+  std::function<bool()> stop_;
   int listener_ = -1;
   int player_ = -1;
   std::uint16_t port_ = 0;

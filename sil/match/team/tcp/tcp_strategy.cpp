@@ -39,7 +39,8 @@ PlayerSocket::Deadline after(std::chrono::milliseconds time) {
 
 }  // namespace
 
-TcpStrategy::TcpStrategy(const TcpOptions& options) : options_(options), socket_(options.port) {}
+TcpStrategy::TcpStrategy(const TcpOptions& options)
+    : options_(options), socket_(options.port, options.stop) {}
 
 TcpStrategy::~TcpStrategy() {
   if (has_waited_ && is_connected()) {

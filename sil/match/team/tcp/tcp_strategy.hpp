@@ -22,6 +22,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -36,6 +37,7 @@ struct TcpOptions {
   std::chrono::milliseconds answer_timeout{1'000};
   std::chrono::milliseconds ready_timeout{30'000};  // from the first frame on: as long as in AI Soccer
   int half_ms = 300'000;                            // for the player to know
+  std::function<bool()> stop = {};                  // ends every wait early
 };
 
 class TcpStrategy final : public Strategy {

@@ -59,6 +59,17 @@ TEST(TcpPlayer, PlaysInLockstep) {
   EXPECT_EQ(team.frames_without_answer(), 0);
 }
 
+// Without the stop this would wait for an hour.
+TEST(TcpPlayer, AStopEndsTheWaitForAPlayerWhoDoesNotCome) {
+  int looks = 0;
+  TcpOptions patient = options();
+  patient.ready_timeout = 1h;
+  patient.stop = [&] { return ++looks > 2; };
+  TcpStrategy team(patient);
+  EXPECT_EQ(team.play(home_view()), TeamOrders{});
+  EXPECT_EQ(looks, 3);
+}
+
 TEST(TcpPlayer, TakesWheelsAndNoKicks) {
   TcpStrategy team(options());
   TestPlayer player(team.port(), [](TestPlayer& self) {
