@@ -13,14 +13,10 @@ import csv
 import os
 import sys
 
-import matplotlib
+import matplotlib.pyplot as plt
+from striker_pictures import save
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-# The same bytes for the same tables.
-matplotlib.rcParams["svg.hashsalt"] = "striker"
-METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
+COMMAND = "striker-plot-experiment"
 LEVELS = [("-4", "-4"), ("0", "0"), ("50%", "50 % of the ceiling"), ("90%", "90 % of the ceiling")]
 
 
@@ -34,14 +30,6 @@ def read(directory, name):
     if not rows:
         sys.exit(f"striker-plot-experiment: {file}: no rows; run striker-experiment again")
     return rows
-
-
-def save(figure, directory, name):
-    for kind, metadata in METADATA.items():
-        target = os.path.join(directory, f"{name}.{kind}")
-        figure.savefig(f"{target}.part", format=kind, metadata=metadata, dpi=120)
-        os.replace(f"{target}.part", target)
-    plt.close(figure)
 
 
 def errors(rows, name, scale=1.0):
@@ -63,8 +51,8 @@ def learning_curves(curves, directory):
     axes.set_xlabel("episode")
     axes.set_ylabel("reward, moving average of 250")
     axes.set_title("Interquartile mean over seeds, 95 % bootstrap intervals")
-    axes.legend(fontsize=8)
-    save(figure, directory, "learning_curves")
+    axes.legend()
+    save(figure, directory, "learning_curves", COMMAND)
 
 
 def sample_efficiency(summary, directory):
@@ -77,9 +65,8 @@ def sample_efficiency(summary, directory):
         panel.set_title(f"average above {title}", fontsize=9)
         panel.set_xlabel("episodes (median)")
         panel.set_yticks(places, [row["variant"] for row in summary])
-        panel.grid(axis="x", linewidth=0.3)
     axes[0].invert_yaxis()
-    save(figure, directory, "sample_efficiency")
+    save(figure, directory, "sample_efficiency", COMMAND)
 
 
 def generalisation(summary, directory):
@@ -91,9 +78,8 @@ def generalisation(summary, directory):
     axes.set_xticks(range(len(summary)), [row["variant"] for row in summary], rotation=25, ha="right")
     axes.set_ylabel("reward, greedy on held-out episodes")
     axes.set_title("Generalisation to other places on the field")
-    axes.grid(axis="y", linewidth=0.3)
     axes.legend()
-    save(figure, directory, "generalisation")
+    save(figure, directory, "generalisation", COMMAND)
 
 
 def main():

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "firmware/policy/built_in.hpp"
+#include "firmware/loop/built_in_node.hpp"
 #include "sil/match/team/strategies.hpp"
 #include "sil/world/random_streams.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 std::string identity_of(const std::string& team) {
   const auto names = strategy_names();
   const auto found = std::ranges::find(names, team, &StrategyName::name);
-  return found != names.end() && found->orders_motions ? fmt::format("{:08x}", policy::built_in.identity)
+  return found != names.end() && found->orders_motions ? fmt::format("{:08x}", loop::BuiltInPilot::identity)
                                                        : std::string();
 }
 

@@ -9,32 +9,19 @@ robots were, as heat maps), ball (its path, with goals) and timeline (the refere
 red's own frame: red plays to the right, in both halves. The same records give the same bytes.
 """
 
-import argparse
 import csv
 import json
 import os
-import subprocess
-import sys
 
-import matplotlib
+import matplotlib.pyplot as plt
+from matplotlib.colors import LogNorm
+from matplotlib.patches import Circle, Rectangle
+from striker_pictures import TEAMS, PlotError, parser_of, run, save
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.patches import Circle, Rectangle  # noqa: E402
-
-HERE = os.path.dirname(os.path.realpath(__file__))
+PROGRAM = "striker-plot-match"
 HALF_LENGTH_M, HALF_WIDTH_M = 3.9, 2.325
-COLOURS = {"red": "C3", "blue": "C0"}
 EVENTS = {"goal": "goal", "ball_out": "ball out", "crowding": "crowding", "deadlock": "deadlock",
           "sent_out": "sent out", "sent_home": "sent home", "returned": "returned"}
-
-# The same bytes for the same records.
-matplotlib.rcParams["svg.hashsalt"] = "striker"
-METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
-
-
-class PlotError(Exception):
-    """What cannot be drawn, in one line."""
 
 
 def read(directory, name, parse):
@@ -74,9 +61,9 @@ def draw_field(axes):
     axes.set_ylabel("y, m")
 
 
-def positions(frames, report, directory):
+def positions(frames, report, directory, command):
     figure, panels = plt.subplots(1, 2, figsize=(13, 4.2), layout="constrained")
-    for axes, colour, suffix in zip(panels, COLOURS, ("", "_opp")):
+    for axes, colour, suffix in zip(panels, TEAMS, ("", "_opp")):
         x_m, y_m = [], []
         for robot in range(5):
             plays = frames["active"][f"robot_{robot}_active{suffix}"]
@@ -86,15 +73,15 @@ def positions(frames, report, directory):
         if x_m:
             _, _, _, image = axes.hist2d(x_m, y_m, bins=(90, 50), range=((-4.5, 4.5), (-2.5, 2.5)), cmin=1,
                                          cmap="Reds" if colour == "red" else "Blues",
-                                         norm=matplotlib.colors.LogNorm())
+                                         norm=LogNorm())
             figure.colorbar(image, ax=axes, label="frames of its five robots")
         draw_field(axes)
         axes.set_title(f"{colour}: {report[colour]['name']}")
-    save(figure, directory, "positions")
+    save(figure, directory, "positions", command)
 
 
 # A line for each sequence of frames without a gap.
-def ball(frames, events, report, directory):
+def ball(frames, events, report, directory, command):
     figure, axes = plt.subplots(figsize=(10, 6), layout="constrained")
     draw_field(axes)
     begin = 0
@@ -103,28 +90,28 @@ def ball(frames, events, report, directory):
             axes.plot(frames["ball_pos_0"][begin:end], frames["ball_pos_1"][begin:end], color="0.4", linewidth=0.5,
                       alpha=0.6)
             begin = end
-    for colour in COLOURS:
+    for colour in TEAMS:
         goals = [event for event in events if event["event"] == "goal" and event["team"] == colour]
         places = [(event["exit_m"], 1 if event["half"] == 1 else -1) for event in goals]
         axes.plot([side * exit_m[0] for exit_m, side in places], [side * exit_m[1] for exit_m, side in places], "o",
-                  color=COLOURS[colour], label=f"goals of {report[colour]['name']} ({colour}): {len(goals)}")
-    axes.legend(loc="upper center", fontsize=8)
+                  color=TEAMS[colour], label=f"goals of {report[colour]['name']} ({colour}): {len(goals)}")
+    axes.legend(loc="upper center")
     axes.set_title("path of the ball")
-    save(figure, directory, "ball")
+    save(figure, directory, "ball", command)
 
 
-def timeline(events, report, directory):
+def timeline(events, report, directory, command):
     figure, (above, below) = plt.subplots(2, 1, figsize=(12, 6), sharex=True, layout="constrained")
     end_s = report["flow"]["sim_s"]
-    for index, colour in enumerate(COLOURS):
+    for index, colour in enumerate(TEAMS):
         goals = [event for event in events if event["event"] == "goal" and event["team"] == colour]
         times_s = [0.0, *(event["t_sim_ns"] / 1e9 for event in goals), end_s]
         scores = [0, *(event["score"][index] for event in goals), report["result"]["score"][index]]
-        above.step(times_s, scores, where="post", color=COLOURS[colour], label=f"{report[colour]['name']} ({colour})")
+        above.step(times_s, scores, where="post", color=TEAMS[colour], label=f"{report[colour]['name']} ({colour})")
     for event in events:
         if event["event"] in EVENTS:
             row = list(EVENTS).index(event["event"]) + {"red": -0.12, "blue": 0.12, None: 0.0}[event["team"]]
-            below.plot([event["t_sim_ns"] / 1e9], [row], "|", color=COLOURS.get(event["team"], "0.3"), markersize=12)
+            below.plot([event["t_sim_ns"] / 1e9], [row], "|", color=TEAMS.get(event["team"], "0.3"), markersize=12)
         if event["event"] == "half_over":
             for axes in (above, below):
                 axes.axvline(event["t_sim_ns"] / 1e9, color="black", linewidth=0.7, linestyle=":")
@@ -133,71 +120,27 @@ def timeline(events, report, directory):
                     + ("" if report["complete"] else " (interrupted)"))
     above.set_ylabel("goals")
     above.yaxis.get_major_locator().set_params(integer=True)
-    above.legend(loc="upper left", fontsize=8)
+    above.legend(loc="upper left")
     below.set_yticks(range(len(EVENTS)), EVENTS.values())
     below.set_ylim(len(EVENTS) - 0.5, -0.5)
     below.set_xlim(0.0, end_s)
     below.set_xlabel("simulated time, s; an event is of who scored, gets the ball, or whose robot it is")
-    for axes in (above, below):
-        axes.grid(axis="x", alpha=0.3)
-    save(figure, directory, "timeline")
+    save(figure, directory, "timeline", command)
 
 
-def save(figure, directory, name):
-    for kind, metadata in METADATA.items():
-        target = os.path.join(directory, f"{name}.{kind}")
-        part = f"{target}.part"
-        try:
-            figure.savefig(part, format=kind, metadata=metadata, dpi=100)
-            os.replace(part, target)
-        except OSError:
-            if os.path.exists(part):
-                os.remove(part)
-            raise
-        print(target)
-    plt.close(figure)
+def draw(options, directory, command):
+    report = read(options.match, "match.json", json.load)
+    events = read(options.match, "events.jsonl", lambda stream: [json.loads(line) for line in stream][1:])
+    frames = read(options.match, "frames.csv", frames_of)
+    positions(frames, report, directory, command)
+    ball(frames, events, report, directory, command)
+    timeline(events, report, directory, command)
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="striker-plot-match", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(PROGRAM, __doc__)
     parser.add_argument("match", metavar="MATCH", help="the directory that striker-sil match wrote")
-    parser.add_argument("-o", "--out", required=True, metavar="DIR", help="is made if there is none")
-    parser.add_argument("--version", action=ShowVersion)
-    options = parser.parse_args()
-    try:
-        report = read(options.match, "match.json", json.load)
-        events = read(options.match, "events.jsonl", lambda stream: [json.loads(line) for line in stream][1:])
-        frames = read(options.match, "frames.csv", frames_of)
-        os.makedirs(options.out, exist_ok=True)
-        positions(frames, report, options.out)
-        ball(frames, events, report, options.out)
-        timeline(events, report, options.out)
-    except PlotError as error:
-        refuse(error)
-    except OSError as error:
-        refuse(f"{error.filename or options.out}: {error.strerror}; give a folder that can be written with -o")
-
-
-class ShowVersion(argparse.Action):
-    """The build's, which striker-sil knows."""
-
-    def __init__(self, **options):
-        super().__init__(nargs=0, help="show the build's version and exit", **options)
-
-    def __call__(self, parser, *_):
-        program = os.path.join(HERE, "striker-sil")
-        try:
-            told = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
-        except (OSError, subprocess.CalledProcessError) as error:
-            refuse(f"{program}: does not tell its version ({error})")
-        print(told.stdout.strip().replace("striker-sil", "striker-plot-match"))
-        parser.exit()
-
-
-def refuse(text):
-    print(f"striker-plot-match: {text}", file=sys.stderr)
-    sys.exit(2)
+    run(PROGRAM, draw, parser.parse_args())
 
 
 if __name__ == "__main__":
