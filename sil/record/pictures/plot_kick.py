@@ -12,107 +12,15 @@ Reads a candump log as 'striker-sil kick --log' writes it, by the messages of st
 Places are the camera's pictures. The same log gives the same bytes.
 """
 
-import json
-import logging
 import math
-import os
-import re
 
-logging.getLogger("canmatrix").setLevel(logging.ERROR)  # it warns of formats that nobody asked for
-import canmatrix.formats  # noqa: E402
-import matplotlib.pyplot as plt  # noqa: E402
-from striker_pictures import BLUE, GREEN, GREY, HERE, ORANGE, VERMILION, PlotError, parser_of, run, save  # noqa: E402
+import matplotlib.pyplot as plt
+from striker_logs import LogError, kicks_of, rewards_of
+from striker_pictures import BLUE, GREEN, GREY, ORANGE, VERMILION, PlotError, parser_of, run, save
 
 PROGRAM = "striker-plot-kick"
-LINE = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#([0-9A-F]*)$")
-ACTIVE, DISARM = 3, 0  # of Status.state, of ModeCommand.mode
 MOST_PANELS = 12
 ROBOT_SIDE_M, BALL_RADIUS_M = 0.15, 0.05
-
-
-class Kick:
-    """An episode: from one arming to the next disarming. Times in s since arming; SI units."""
-
-    def __init__(self, begin_s):
-        self.begin_s = begin_s
-        self.robot, self.ball, self.commands, self.wheels, self.decisions = [], [], [], [], []
-
-    def take(self, name, time_s, value):
-        time_s -= self.begin_s
-        if name == "VisionPose":
-            self.robot.append((time_s, value["x"] / 1e3, value["y"] / 1e3, math.radians(value["heading"])))
-        elif name == "VisionBall":
-            self.ball.append((time_s, value["x"] / 1e3, value["y"] / 1e3))
-        elif name == "WheelCommand":
-            self.commands.append((time_s, *(value[f"{side}_{what}"] for what in ("set_point", "torque")
-                                            for side in ("left", "right"))))
-        elif name == "WheelState":
-            self.wheels.append((time_s, value["left_speed"] / 1e3, value["right_speed"] / 1e3))
-        elif name == "Decision":
-            self.decisions.append((time_s, value["action"], value["best_q"], value["next_q"]))
-
-
-def messages():
-    matrix, = canmatrix.formats.loadp(os.path.join(HERE, "striker.dbc")).values()
-    wanted = ("Status", "ModeCommand", "VisionPose", "VisionBall", "WheelCommand", "WheelState", "Decision")
-    return {frame.arbitration_id.id: frame for frame in matrix.frames if frame.name in wanted}
-
-
-def kicks_of(log):
-    known = messages()
-    kicks, kick, last = [], None, {}
-    for number, line in enumerate(log, 1):
-        parts = LINE.match(line)
-        if parts is None:
-            raise PlotError(f"{log.name}: line {number} is no frame of a candump log")
-        frame = known.get(int(parts[2], 16))
-        if frame is None:
-            continue
-        values = {name: float(signal.phys_value) for name, signal in frame.decode(bytes.fromhex(parts[3])).items()}
-        time_s = float(parts[1])
-        if frame.name == "Status":
-            if values["state"] == ACTIVE and kick is None:
-                kick = Kick(time_s)
-                for name, seen in last.items():  # what the first decision saw
-                    kick.take(name, time_s, seen)
-                kicks.append(kick)
-            elif values["state"] != ACTIVE:
-                kick = None
-        elif frame.name == "ModeCommand":
-            kick = None if values["mode"] == DISARM else kick  # pictures of the next episode may come in this tick
-        elif kick is not None:
-            kick.take(frame.name, time_s, values)
-        elif frame.name.startswith("Vision"):
-            last[frame.name] = values
-    return [kick for kick in kicks if kick.robot and kick.ball]
-
-
-def read_kicks(file):
-    try:
-        with open(file, encoding="ascii") as log:
-            kicks = kicks_of(log)
-    except OSError as error:
-        raise PlotError(f"{file}: {error.strerror}; give a log of 'striker-sil kick --log'") from error
-    except UnicodeDecodeError as error:
-        raise PlotError(f"{file}: is no candump log") from error
-    if not kicks:
-        raise PlotError(f"{file}: has no kick: no controller was armed and saw robot and ball")
-    return kicks
-
-
-def read_rewards(file, count):
-    if file is None:
-        return None
-    try:
-        with open(file, encoding="utf-8") as stream:
-            rewards = [row["reward"] for row in json.load(stream)["rows"]]
-    except OSError as error:
-        raise PlotError(f"{file}: {error.strerror}; give what 'striker-sil kick --json' wrote") from error
-    except (ValueError, KeyError, TypeError) as error:
-        raise PlotError(f"{file}: is no summary of kicks ({error})") from error
-    if len(rewards) != count:
-        raise PlotError(f"{file}: has {len(rewards)} episodes, the log has {count}; give those of one run")
-    return rewards
 
 
 def draw_paths(axes, kick):
@@ -186,8 +94,11 @@ def one_kick(kick, title, directory, command):
 
 
 def draw(options, directory, command):
-    kicks = read_kicks(options.log)
-    rewards = read_rewards(options.json, len(kicks))
+    try:
+        kicks = kicks_of(options.log)
+        rewards = None if options.json is None else rewards_of(options.json, len(kicks))
+    except LogError as error:
+        raise PlotError(error) from error
     episode = options.episode
     if episode is None:
         episode = 0 if rewards is None else max(range(len(kicks)), key=lambda place: rewards[place])

@@ -1,0 +1,84 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Makes one self-contained page of runs, which opens without a network.
+
+Usage: striker-report RUN... -o report.html
+
+Each RUN is a directory that a program of Striker wrote:
+  of kicks      kick.json and bus.log, as tools/demo leaves them in out/demo: the field with a time slider, Q values, the
+                line of the log at each moment, and all episodes, worst first
+  of a match    match.json, events.jsonl and bus/: the field with ten robots, events to jump to, and what they did
+  of a league   league.json: table and pairings with their intervals
+  of a campaign runs.jsonl of 'striker-sil campaign': outcomes by fault, and every violated invariant
+
+The same runs give the same bytes.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+
+from striker_logs import LogError
+from striker_runs import read_run
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+
+
+def page_of(runs):
+    with open(os.path.join(HERE, "striker_report.html"), encoding="utf-8") as file:
+        page = file.read()
+    with open(os.path.join(HERE, "striker_report.js"), encoding="utf-8") as file:
+        script = file.read()
+    # "</" would end the script's element, whatever stands around it.
+    data = json.dumps(runs, separators=(",", ":")).replace("</", "<\\/")
+    return page.replace("/*SCRIPT*/", f"const runs = {data};\n{script}")
+
+
+def write_whole(file, text):
+    part = f"{file}.part"
+    try:
+        with open(part, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        os.replace(part, file)
+    except OSError:
+        if os.path.exists(part):
+            os.remove(part)
+        raise
+
+
+class ShowVersion(argparse.Action):
+    """The build's, which striker-sil knows."""
+
+    def __call__(self, parser, *_):
+        told = subprocess.run([os.path.join(HERE, "striker-sil"), "--version"], capture_output=True, text=True, check=False)
+        print(told.stdout.strip().replace("striker-sil", "striker-report"))
+        parser.exit(0 if told.returncode == 0 else 2)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="striker-report", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("run", nargs="+", metavar="RUN", help="a directory of a run")
+    parser.add_argument("-o", "--out", required=True, metavar="REPORT.html")
+    parser.add_argument("--version", action=ShowVersion, nargs=0, help="show the build's version and exit")
+    options = parser.parse_args()
+    try:
+        text = page_of([read_run(run) for run in options.run])
+    except LogError as error:
+        refuse(error)
+    try:
+        write_whole(options.out, text)
+    except OSError as error:
+        refuse(f"{options.out}: {error.strerror}; give a file that can be written with -o")
+    print(f"{options.out}: {len(options.run)} runs, {len(text.encode()) / 1e6:.2f} MB")
+
+
+def refuse(text):
+    print(f"striker-report: {text}", file=sys.stderr)
+    sys.exit(2)
+
+
+if __name__ == "__main__":
+    main()
