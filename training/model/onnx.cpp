@@ -37,7 +37,7 @@ class Chain {
 
   std::vector<Tensor> layers() {
     value_ = input();
-    for (int left = graph_.node_size(); !is_output(value_); --left) {
+    for (int left = graph_.node_size() + 1; !is_output(value_); --left) {
       if (left == 0) {
         refuse("its nodes go in a circle");
       }

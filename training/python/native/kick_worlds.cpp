@@ -51,7 +51,6 @@ bool KickWorlds::step_world(std::size_t world, int action, const StepArrays& out
   StepResult result;
   if (player.is_playing()) {
     result = player.step(action);
-    outcomes_[world] = player.now().outcome();
   } else {
     player.reset(player.seed(), player.episode() + stride_);
   }
@@ -60,6 +59,9 @@ bool KickWorlds::step_world(std::size_t world, int action, const StepArrays& out
   out.truncated[world] = result.truncated;
   if (out.records != nullptr) {
     std::ranges::copy(player.record(), out.records + world * record_fields.size());
+  }
+  if (result.end) {
+    outcomes_[world] = player.now().outcome();
   }
   if (result.end && autoreset_ == Autoreset::same_step) {
     write_observation(world, out.final_observations);

@@ -45,7 +45,7 @@ class KickWorlds {
   // `actions` holds one of the task's a world. How many worlds ended their episode.
   int step(const std::int64_t* actions, const StepArrays& out);
 
-  // Of the episode that ended in the last step, or of the present one.
+  // Of the episode that ended last.
   [[nodiscard]] const sil::KickOutcome& outcome(int world) const {
     return outcomes_[static_cast<std::size_t>(world)];
   }
