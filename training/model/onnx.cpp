@@ -55,7 +55,8 @@ class Chain {
   }
 
   [[noreturn]] void refuse(const onnx::NodeProto& node, const std::string& why) const {
-    refuse(fmt::format("node {} ({}) {}", node.name().empty() ? node.output(0) : node.name(), node.op_type(), why));
+    refuse(fmt::format("node {} ({}) {}", node.name().empty() ? node.output(0) : node.name(), node.op_type(),
+                       why));
   }
 
   void add_constant(const onnx::NodeProto& node) {
@@ -161,7 +162,8 @@ class Chain {
     Tensor bias = constant(node, name);
     const std::size_t last = bias.shape.empty() ? 0 : bias.shape.back();
     if (last != bias.values.size()) {
-      refuse(node, fmt::format("has a bias of shape [{}], not one value an output", fmt::join(bias.shape, ", ")));
+      refuse(node,
+             fmt::format("has a bias of shape [{}], not one value an output", fmt::join(bias.shape, ", ")));
     }
     bias.shape = {last};
     bias.name = fmt::format("{}.bias", tensors_.size() - 1);
@@ -199,8 +201,8 @@ class Chain {
       std::memcpy(tensor.values.data(), from.raw_data().data(), tensor.values.size() * sizeof(float));
     }
     if (tensor.values.size() != count) {
-      refuse(node, fmt::format("reads {}, whose {} values do not fit its shape [{}]", name, tensor.values.size(),
-                               fmt::join(tensor.shape, ", ")));
+      refuse(node, fmt::format("reads {}, whose {} values do not fit its shape [{}]", name,
+                               tensor.values.size(), fmt::join(tensor.shape, ", ")));
     }
     if (!std::ranges::all_of(tensor.values, [](float value) { return std::isfinite(value); })) {
       refuse(node, fmt::format("reads {}, which holds NaN or infinite values", name));

@@ -33,7 +33,8 @@ Array<float> copy_of(const Features& features) {
 // One world.
 class Kick {
  public:
-  explicit Kick(const Tasks& tasks) : player_(tasks.environments), actions_(static_cast<int>(tasks.environments.front().actions.size())) {}
+  explicit Kick(const Tasks& tasks)
+      : player_(tasks.environments), actions_(static_cast<int>(tasks.environments.front().actions.size())) {}
 
   Array<float> reset(std::uint64_t seed, std::uint64_t episode) {
     player_.reset(seed, episode);
@@ -97,7 +98,8 @@ class Kick {
 class Worlds {
  public:
   Worlds(const Tasks& tasks, int worlds, int threads, bool same_step)
-      : worlds_(tasks.environments, worlds, threads, same_step ? Autoreset::same_step : Autoreset::next_step) {}
+      : worlds_(tasks.environments, worlds, threads,
+                same_step ? Autoreset::same_step : Autoreset::next_step) {}
 
   void reset(const std::vector<std::uint64_t>& seeds, std::uint64_t first, Array<float>& observations) {
     float* const to = elements(observations, worlds_.size() * worlds_.inputs(), "observations");
@@ -137,7 +139,8 @@ class Worlds {
 
   // A row a world: outcome_fields.
   [[nodiscard]] Array<double> outcomes() const {
-    Array<double> table(std::vector<py::ssize_t>{worlds_.size(), static_cast<py::ssize_t>(outcome_fields.size())});
+    Array<double> table(
+        std::vector<py::ssize_t>{worlds_.size(), static_cast<py::ssize_t>(outcome_fields.size())});
     double* to = table.mutable_data();
     for (int world = 0; world < worlds_.size(); ++world) {
       const sil::KickOutcome& outcome = worlds_.outcome(world);
@@ -160,8 +163,9 @@ class Worlds {
     return py::make_tuple(worlds_.stride(), players);
   }
 
-  void restore(std::uint64_t stride,
-               const std::vector<std::tuple<std::uint64_t, std::uint64_t, std::vector<std::uint8_t>>>& players) {
+  void restore(
+      std::uint64_t stride,
+      const std::vector<std::tuple<std::uint64_t, std::uint64_t, std::vector<std::uint8_t>>>& players) {
     worlds_.set_stride(stride);
     for (std::size_t world = 0; world < players.size(); ++world) {
       const auto& [seed, episode, actions] = players[world];
@@ -189,7 +193,8 @@ void add_kick(py::module_& module) {
   py::class_<Tasks>(module, "Tasks")
       .def(py::init(&tasks_of), py::arg("config"), py::arg("text"), py::arg("robot"), py::arg("changes"))
       .def_readonly("text", &Tasks::text)
-      .def_property_readonly("inputs", [](const Tasks& tasks) { return tasks.environments.front().inputs.size(); })
+      .def_property_readonly("inputs",
+                             [](const Tasks& tasks) { return tasks.environments.front().inputs.size(); })
       .def_property_readonly("set_points", &set_points);
   py::class_<Kick>(module, "Kick")
       .def(py::init<const Tasks&>())
@@ -205,8 +210,9 @@ void add_kick(py::module_& module) {
       // No array is converted: it would be a copy, and the caller's would stay as it is.
       .def("reset", &Worlds::reset, py::arg("seeds"), py::arg("first"), py::arg("observations").noconvert())
       .def("step", &Worlds::step, py::arg("actions").noconvert(), py::arg("observations").noconvert(),
-           py::arg("rewards").noconvert(), py::arg("terminated").noconvert(), py::arg("truncated").noconvert(),
-           py::arg("records").noconvert(), py::arg("final_observations").noconvert())
+           py::arg("rewards").noconvert(), py::arg("terminated").noconvert(),
+           py::arg("truncated").noconvert(), py::arg("records").noconvert(),
+           py::arg("final_observations").noconvert())
       .def("outcomes", &Worlds::outcomes)
       .def("state", &Worlds::state)
       .def("restore", &Worlds::restore);

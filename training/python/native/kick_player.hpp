@@ -21,15 +21,23 @@ namespace striker::training {
 // What a decision was, and what a reward may be computed from. Places and speeds are what the learner sees: estimated
 // where the task says so, in the robot's frame, SI units. The rest is the truth.
 inline constexpr std::array<std::string_view, 17> record_fields = {
-    "decision",        // 1 to 40: how many were taken, this one included
-    "action",          // this decision's
-    "reward",          // what the task pays for it
-    "contact",         // 1: the robot has touched the ball in this episode
-    "just_contact",    // 1: for the first time, in this decision
-    "theta_contact_rad", "v_contact_m_s", "front_face",  // of the first contact; 0 without one
-    "ball_x_m", "ball_y_m", "robot_speed_m_s", "ball_vx_m_s", "ball_vy_m_s", "ball_angle_rad",
+    "decision",      // 1 to 40: how many were taken, this one included
+    "action",        // this decision's
+    "reward",        // what the task pays for it
+    "contact",       // 1: the robot has touched the ball in this episode
+    "just_contact",  // 1: for the first time, in this decision
+    "theta_contact_rad",
+    "v_contact_m_s",
+    "front_face",  // of the first contact; 0 without one
+    "ball_x_m",
+    "ball_y_m",
+    "robot_speed_m_s",
+    "ball_vx_m_s",
+    "ball_vy_m_s",
+    "ball_angle_rad",
     "decisions_left",  // 39 to 0
-    "terminated", "truncated"};
+    "terminated",
+    "truncated"};
 
 using Record = std::array<double, record_fields.size()>;
 

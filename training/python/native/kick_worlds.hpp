@@ -24,7 +24,7 @@ struct StepArrays {
   double* rewards = nullptr;
   bool* terminated = nullptr;
   bool* truncated = nullptr;
-  double* records = nullptr;           // record_fields.size() a world
+  double* records = nullptr;            // record_fields.size() a world
   float* final_observations = nullptr;  // of worlds that ended: what their last decision saw
 };
 
@@ -49,9 +49,12 @@ class KickWorlds {
   [[nodiscard]] const sil::KickOutcome& outcome(int world) const {
     return outcomes_[static_cast<std::size_t>(world)];
   }
-  [[nodiscard]] const KickPlayer& player(int world) const { return players_[static_cast<std::size_t>(world)]; }
+  [[nodiscard]] const KickPlayer& player(int world) const {
+    return players_[static_cast<std::size_t>(world)];
+  }
   // To the state of a copy (KickPlayer): its episode, and the actions played in it.
-  void restore(int world, std::uint64_t seed, std::uint64_t episode, const std::vector<std::uint8_t>& actions);
+  void restore(int world, std::uint64_t seed, std::uint64_t episode,
+               const std::vector<std::uint8_t>& actions);
   // How far apart a world's episodes are.
   void set_stride(std::uint64_t stride) { stride_ = stride; }
   [[nodiscard]] std::uint64_t stride() const { return stride_; }
