@@ -9,4 +9,5 @@ PYBIND11_MODULE(_native, module) {
   module.attr("FIRST_VALIDATION_EPISODE") = first_validation_episode;
   add_network(module);
   add_kick(module);
+  add_match(module);
 }

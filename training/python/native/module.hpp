@@ -8,6 +8,7 @@
 namespace striker::training {
 
 void add_kick(pybind11::module_& module);     // Kick, KickWorlds
+void add_match(pybind11::module_& module);    // Match
 void add_network(pybind11::module_& module);  // Network, and the task that a model or a configuration is for
 
 }  // namespace striker::training

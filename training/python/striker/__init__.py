@@ -14,12 +14,14 @@ Nothing here needs it.
 
 from striker._native import FIRST_TRAINING_EPISODE, FIRST_VALIDATION_EPISODE
 from striker.kick_env import KickEnv
+from striker.match_env import MatchEnv, MatchRecord
 from striker.networks import Network, export
 from striker.records import KickRecord
 from striker.registration import register
 from striker.vector_kick_env import VectorKickEnv
 
-__all__ = ["FIRST_TRAINING_EPISODE", "FIRST_VALIDATION_EPISODE", "KickEnv", "KickRecord", "Network", "VectorKickEnv",
+__all__ = ["FIRST_TRAINING_EPISODE", "FIRST_VALIDATION_EPISODE", "KickEnv", "KickRecord", "MatchEnv", "MatchRecord",
+           "Network", "VectorKickEnv",
            "export"]
 
 register()
