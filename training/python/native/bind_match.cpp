@@ -31,7 +31,8 @@ class LeftOrders final : public sil::Strategy {
 struct Game {
   Game(const sil::MatchSetting& setting, sil::Team own)
       : links(sil::links_in_process()),
-        rival(sil::make_strategy(setting.teams[1 - index_of(own)], team_seed(setting, sil::opponent_of(own)))),
+        rival(
+            sil::make_strategy(setting.teams[1 - index_of(own)], team_seed(setting, sil::opponent_of(own)))),
         run(plan_of(setting), parts(own)) {
     run.begin();
     run.see_frame();
