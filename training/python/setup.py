@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """pip install ./training/python --no-build-isolation: CMake builds the native module, for the Python that pip is of.
 
-STRIKER_BUILD names a build folder to take it from, in place of one of its own beside the sources (build-python)."""
+STRIKER_BUILD names a build folder whose module is taken as it is, in place of one of its own beside the sources
+(build-python)."""
 
 import glob
 import os
@@ -23,7 +24,7 @@ class CMakeBuild(build_ext):
             subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                             "-DSTRIKER_TESTS=OFF", "-DSTRIKER_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"],
                            check=True)
-        subprocess.run(["cmake", "--build", build, "--target", "striker_python"], check=True)
+            subprocess.run(["cmake", "--build", build, "--target", "striker_python"], check=True)
         to = os.path.join(self.build_lib, "striker")
         os.makedirs(to, exist_ok=True)
         (native,) = glob.glob(os.path.join(build, "python", "striker", "_native*.so"))

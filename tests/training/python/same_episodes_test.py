@@ -93,8 +93,9 @@ class SameEpisodes(PackageCase):
         self.assertEqual(self.played(striker.KickEnv(config=network.configuration), network, 100, 2), expected)
 
     def test_the_episodes_of_a_training(self):
-        self.must_run("striker-train", "--config", PAPER, "--seed", 4, "--out", self.path("run"), "--set", "run.episodes=40", "--set",
-                      "run.validation_episodes=0", "--set", "task.actions=[[0.0, 0.0], [0.0, 0.0]]")
+        self.must_run("striker-train", "--config", PAPER, "--seed", 4, "--out", self.path("run"), "--set",
+                      "run.episodes=40", "--set", "run.validation_episodes=0", "--set",
+                      "task.actions=[[0.0, 0.0], [0.0, 0.0]]")
         with open(self.path("run/learning_curve.csv"), encoding="utf-8") as stream:
             expected = [(int(row["steps"]), row["contact"]) for row in csv.DictReader(stream)]
         env = striker.KickEnv(actions=[[0.0, 0.0], [0.0, 0.0]])  # so that no choice matters
