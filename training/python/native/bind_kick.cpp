@@ -102,7 +102,7 @@ class Worlds {
                 same_step ? Autoreset::same_step : Autoreset::next_step) {}
 
   void reset(const std::vector<std::uint64_t>& seeds, std::uint64_t first, Array<float>& observations) {
-    float* const to = elements(observations, worlds_.size() * worlds_.inputs(), "observations");
+    float* const to = elements(observations, py::ssize_t{worlds_.size()} * worlds_.inputs(), "observations");
     if (seeds.size() == 1) {
       worlds_.reset(seeds.front(), first, to);
     } else if (seeds.size() == static_cast<std::size_t>(worlds_.size())) {

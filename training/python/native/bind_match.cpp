@@ -117,7 +117,7 @@ class Match {
             static_cast<double>(view.half),
             static_cast<double>(view.score[0]),
             static_cast<double>(view.score[1]),
-            static_cast<double>(view.state),
+            static_cast<double>(game_->run.ruling().state),
             view.has_ball ? 1.0 : 0.0};
   }
 

@@ -10,9 +10,9 @@
 
 #include <barrier>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace striker::training {
@@ -21,7 +21,7 @@ class Crew {
  public:
   explicit Crew(int size) : size_(size), gate_(size) {
     for (int part = 1; part < size; ++part) {
-      threads_.emplace_back([this, part] { work(part); });
+      threads_->emplace_back([this, part] { work(part); });
     }
   }
   Crew(const Crew&) = delete;
@@ -29,12 +29,12 @@ class Crew {
   ~Crew() {
     if (getpid() != home_) {
       // They are not in this process, where nothing can be said to them: what they were is left alone.
-      new std::vector<std::thread>(std::move(threads_));
+      static_cast<void>(threads_.release());
       return;
     }
     job_ = nullptr;
     gate_.arrive_and_wait();
-    for (std::thread& thread : threads_) {
+    for (std::thread& thread : *threads_) {
       thread.join();
     }
   }
@@ -73,7 +73,7 @@ class Crew {
   pid_t home_ = getpid();
   const std::function<void(int)>* job_ = nullptr;
   std::barrier<> gate_;
-  std::vector<std::thread> threads_;
+  std::unique_ptr<std::vector<std::thread>> threads_ = std::make_unique<std::vector<std::thread>>();
 };
 
 }  // namespace striker::training

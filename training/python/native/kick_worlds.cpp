@@ -38,7 +38,8 @@ int KickWorlds::step(const std::int64_t* actions, const StepArrays& out) {
   crew_.run([&](int part) {
     const auto at = static_cast<std::size_t>(part);
     int ended = 0;
-    for (std::size_t world = at * size() / parts; world < (at + 1) * size() / parts; ++world) {
+    for (std::size_t world = at * players_.size() / parts; world < (at + 1) * players_.size() / parts;
+         ++world) {
       ended += step_world(world, static_cast<int>(actions[world]), out) ? 1 : 0;
     }
     ended_[at] = ended;
