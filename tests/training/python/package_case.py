@@ -11,7 +11,7 @@ import unittest
 import numpy
 
 if "STRIKER_BIN" not in os.environ:  # processes that a test begins find it there
-    os.environ["STRIKER_BIN"], os.environ["STRIKER_PACKAGE"] = sys.argv.pop(1), sys.argv.pop(1)
+    os.environ["STRIKER_BIN"], os.environ["STRIKER_PACKAGE"] = map(os.path.abspath, (sys.argv.pop(1), sys.argv.pop(1)))
 BIN = os.environ["STRIKER_BIN"]
 sys.path.insert(0, os.environ["STRIKER_PACKAGE"])
 
