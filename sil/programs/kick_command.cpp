@@ -18,6 +18,8 @@
 #include "sil/bus/in_process_link.hpp"
 #include "sil/bus/socketcan_link.hpp"
 #include "sil/bus/timed_link.hpp"
+#include "sil/policy/loaded_pilot.hpp"
+#include "sil/policy/policy_file.hpp"
 #include "sil/programs/robot_options.hpp"
 #include "sil/record/candump_log.hpp"
 #include "sil/record/decision_csv.hpp"
@@ -35,21 +37,28 @@ namespace {
 
 // The way to the controller: in process or over a socket, and a bus in time around that if time is asked for.
 struct Bus {
-  std::unique_ptr<InProcessLink> in_process;
+  std::unique_ptr<InProcessLink> in_process;    // with the built-in policy; or ...
+  std::unique_ptr<ControllerLink> with_policy;  // ... with the one that --policy names
   std::unique_ptr<ControllerLink> socket;
   std::unique_ptr<TimedLink> timed;
 
   [[nodiscard]] ControllerLink& untimed() const {
-    return in_process ? static_cast<ControllerLink&>(*in_process) : *socket;
+    return in_process ? static_cast<ControllerLink&>(*in_process) : with_policy ? *with_policy : *socket;
   }
   [[nodiscard]] ControllerLink& link() const { return timed ? *timed : untimed(); }
 };
 
+core::RobotDescription robot_of(const KickOptions& options) {
+  return described_robot(options.robot, options.policy.empty() ? nullptr : LoadedPilot::suits);
+}
+
 Bus open_bus(const KickOptions& options) {
   Bus bus;
   const std::string interface = interface_of(options.bus);
-  if (options.in_process()) {
-    bus.in_process = std::make_unique<InProcessLink>(core::profile_of(described_robot(options.robot)));
+  if (!options.policy.empty()) {
+    bus.with_policy = std::make_unique<NodeLink<LoadedNode>>(core::profile_of(robot_of(options)));
+  } else if (options.in_process()) {
+    bus.in_process = std::make_unique<InProcessLink>(core::profile_of(robot_of(options)));
   } else if (options.real_time) {
     bus.socket = std::make_unique<FreeRunningLink>(interface);
   } else {
@@ -91,7 +100,10 @@ struct Played {
 };
 
 // The bus tells a policy's identity alone: its name is known if it is this build's.
-std::string name_of_policy(const std::string& identity) {
+std::string name_of_policy(const std::string& identity, const LoadedPolicy& loaded) {
+  if (!loaded.name.empty()) {
+    return loaded.name;
+  }
   const bool is_ours = identity == fmt::format("{:08x}", policy::built_in.identity);
   return is_ours ? policy::built_in_name : "of another build,";
 }
@@ -99,9 +111,11 @@ std::string name_of_policy(const std::string& identity) {
 // Robot, link and run. The observers' files are complete when it returns.
 class KickSession {
  public:
-  KickSession(const KickOptions& options, const Bus& bus, const std::vector<Observer*>& observers)
+  KickSession(const KickOptions& options, const LoadedPolicy& policy, const Bus& bus,
+              const std::vector<Observer*>& observers)
       : options_(&options),
-        robot_(described_robot(options.robot)),
+        policy_(&policy),
+        robot_(robot_of(options)),
         variation_(completed(variation_of(options.vary), robot_)),
         plants_(make_plants(plant_kind_of(options.plant).value(), spec_of(robot_), variation_)),
         camera_(make_camera(variation_, options.seed)),
@@ -149,7 +163,7 @@ class KickSession {
                   .pose = options_->pose,
                   .robot = options_->robot,
                   .variation = options_->vary,
-                  .policy_name = name_of_policy(scenario_.policy()),
+                  .policy_name = name_of_policy(scenario_.policy(), *policy_),
                   .policy = scenario_.policy(),
                   .simulated_s = scenario_.simulated_s(),
                   .wall_s = wall.count(),
@@ -161,6 +175,7 @@ class KickSession {
 
  private:
   const KickOptions* options_;
+  const LoadedPolicy* policy_;
   core::RobotDescription robot_;
   Variation variation_;
   std::vector<std::unique_ptr<Plant>> plants_;
@@ -220,6 +235,11 @@ void write_summary(const KickRun& run, const std::string& file, EpisodeJournal& 
 }  // namespace
 
 int play_kicks(const KickOptions& options) {
+  LoadedPolicy policy;
+  if (!options.policy.empty()) {
+    policy = load_policy(options.policy);
+    LoadedPilot::fly(policy);
+  }
   const Bus bus = open_bus(options);
   const Observers owned = make_observers(options, bus);
   std::vector<Observer*> observers;
@@ -232,7 +252,7 @@ int play_kicks(const KickOptions& options) {
     journal.emplace(options.json, [&] { return session->last_row(); });
     observers.push_back(&*journal);
   }
-  session = std::make_unique<KickSession>(options, bus, observers);
+  session = std::make_unique<KickSession>(options, policy, bus, observers);
   const Played played = session->play();
   fmt::print("{}", format_table(played.run, played.run.episodes.size() <= 50));
   if (bus.timed) {

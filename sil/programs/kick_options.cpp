@@ -32,6 +32,10 @@ void define_episodes(CLI::App& kick, KickOptions& options) {
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();
   define_robot(kick, options.robot);
+  host::reads_file(
+      kick.add_option("--policy", options.policy,
+                      "plays this policy instead of the built-in one (inproc): a header of "
+                      "striker-export, or a model, safetensors or ONNX, which is exported first"));
   define_variation(kick, options.vary);
   kick.add_option("--episodes", options.episodes, "how many")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{900000}))
@@ -105,6 +109,10 @@ void define(CLI::App& kick, KickOptions& options) {
     require_robot_in_process(kick, options.bus);
     host::require_meaning(kick, options.in_process(), {"--decisions"},
                           "--bus inproc: it reads the controller's own state");
+    host::require_meaning(kick, options.in_process(), {"--policy"},
+                          "--bus inproc: a controller on a bus has its own");
+    host::require_meaning(kick, options.policy.empty(), {"--decisions"},
+                          "the built-in policy: its columns are those of its inputs");
   });
 }
 

@@ -20,6 +20,7 @@ struct KickOptions {
   std::string task = "kick";
   std::string pose = "origin";
   std::string robot;
+  std::string policy;  // empty: the built-in one
   std::string vary;
   std::uint64_t episodes = 20;
   std::uint64_t first = 0;

@@ -46,16 +46,14 @@ void require_robot_in_process(CLI::App& command, const std::string& bus) {
                         "--bus inproc: a controller on a bus is told of its robot when it is built");
 }
 
-core::RobotDescription described_robot(const std::string& file) {
-  if (file.empty()) {
-    return loop::built_in_description;
-  }
-  const core::RobotDescription robot = read_robot(file);
-  if (!loop::BuiltInPilot::suits(core::profile_of(robot))) {
-    throw std::runtime_error(fmt::format(
-        "{}: the policy's actions go beyond top_rim_speed_mm_s = {}: train one for this robot, and build with "
-        "-DSTRIKER_POLICY=HEADER",
-        file, robot.top_rim_speed_mm_s));
+core::RobotDescription described_robot(const std::string& file, Suits suits) {
+  const core::RobotDescription robot = file.empty() ? loop::built_in_description : read_robot(file);
+  const bool is_built_in = suits == nullptr;
+  if (!(is_built_in ? loop::BuiltInPilot::suits : suits)(core::profile_of(robot))) {
+    throw std::runtime_error(
+        fmt::format("{}: the policy's actions go beyond top_rim_speed_mm_s = {}: train one for this robot{}",
+                    file.empty() ? "the built-in robot" : file, robot.top_rim_speed_mm_s,
+                    is_built_in ? ", and build with -DSTRIKER_POLICY=HEADER" : ""));
   }
   return robot;
 }

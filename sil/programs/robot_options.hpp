@@ -17,8 +17,11 @@ void define_variation(CLI::App& command, std::string& vary);
 // Refuses --robot with --bus can:IFACE; for the command's final callback.
 void require_robot_in_process(CLI::App& command, const std::string& bus);
 
+// Whether a policy's actions are within what a robot can.
+using Suits = bool (*)(const core::RobotProfile&);
+
 // The description in `file`, or the built-in one where it is empty. Throws std::runtime_error where the file is none, or
-// where the built-in policy asks for more than the robot can.
-[[nodiscard]] core::RobotDescription described_robot(const std::string& file);
+// where the policy (the built-in one, if no other is said) asks for more than the robot can.
+[[nodiscard]] core::RobotDescription described_robot(const std::string& file, Suits suits = nullptr);
 
 }  // namespace striker::sil

@@ -53,6 +53,7 @@ ARROWS = {
                          "sil/robot", "sil/bus", "sil/world", "firmware/can", "firmware/core", "firmware/host"],
     "sil/match/league": ["sil/match/play", "sil/match/record", "sil/match/team", "sil/match/referee", "sil/scenario",
                          "sil/task", "firmware/host"],
+    "sil/policy": ["firmware/can", "firmware/core", "firmware/host", "firmware/loop", "firmware/policy"],
     "sil/budget": ["sil/bus", "firmware/can", "firmware/core", "firmware/host", "firmware/loop"],
     "sil/programs": ["sil", "firmware/host", "firmware/can", "firmware/core", "firmware/loop", "firmware/policy"],
     "training/task": ["sil/world", "sil/task", "firmware/core", "firmware/policy"],
@@ -70,6 +71,7 @@ ARROWS = {
     "training/ceiling": ["training/run", "training/search", "training/line", "training/learner", "training/task", "sil/task", "sil/world",
                          "firmware/core", "firmware/host"],
     "training/programs": ["training", "sil/robot/description", "sil/task", "sil/world", "firmware/core", "firmware/host"],
+    "training/python": ["training", "sil/robot/description", "sil/match", "sil/task", "sil/world", "firmware/core"],
     "training/benchmarks": ["training", "sil/task", "sil/world"],
     "tests": ["firmware", "sil", "training"],
 }

@@ -8,6 +8,7 @@
 #include "firmware/host/files.hpp"
 #include "training/model/hash.hpp"
 #include "training/model/network_names.hpp"
+#include "training/model/onnx.hpp"
 
 namespace striker::training {
 
@@ -105,7 +106,14 @@ Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& 
 }
 
 Model load_model(const std::filesystem::path& file, const std::string& network) {
-  const SafeTensors content = read_safetensors(host::read_file(file), file.string());
+  const bool is_onnx = file.extension() == ".onnx";
+  if (is_onnx && !network.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: an ONNX file holds one network; leave --network {} out", file.string(), network));
+  }
+  const std::string bytes = host::read_file(file);
+  const SafeTensors content =
+      is_onnx ? read_onnx(bytes, file.string()) : read_safetensors(bytes, file.string());
   return {.parameters = parameters_of(content.tensors, file.string(), network), .metadata = content.metadata};
 }
 

@@ -4,7 +4,8 @@
 //
 // Networks trained elsewhere are read too: any names that end in a number and ".weight" or ".bias", in
 // ascending order, whatever stands before the number ("q_net.q_net.0.weight" of Stable-Baselines3,
-// "network.0.weight" of CleanRL). Of several networks in a file, one whose name holds "target" is left out.
+// "network.0.weight" of CleanRL). Of several networks in a file, one whose name holds "target" is left out. A file whose
+// name ends in .onnx is read as such (onnx.hpp): the same network is the same model.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +25,7 @@ struct Model {
   std::map<std::string, std::string> metadata;
 };
 
-// Errors as `read_safetensors`; also a missing or doubtful tensor, or layers that do not fit together.
+// Errors as `read_safetensors` or `read_onnx`; also a missing or doubtful tensor, or layers that do not fit together.
 // `network` names one of several networks in the file, by the first parts of its tensors' names (network_names.hpp).
 [[nodiscard]] Model load_model(const std::filesystem::path& file, const std::string& network = "");
 // Throws, and writes nothing, if a weight is not finite: no program would read it.

@@ -34,6 +34,9 @@ class KickEnvironment {
   [[nodiscard]] const TaskConfig& config() const { return config_; }
   [[nodiscard]] const Features& features() const { return features_; }
   [[nodiscard]] const RcsState& state() const { return history_.ago(0).rcs; }
+  [[nodiscard]] const Observation& seen() const {
+    return history_.ago(0).field;
+  }  // what `state` is computed from
   [[nodiscard]] int decisions_left() const { return sil::kick_decisions - decisions_; }
   [[nodiscard]] RawState raw() const { return raw_state(config_.inputs, history_, in_mirror()); }
   [[nodiscard]] const Outcome& outcome() const { return episode_.outcome(); }

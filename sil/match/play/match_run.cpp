@@ -69,7 +69,11 @@ MatchEnd MatchRun::run(const std::function<bool()>& stop) {
   for (MatchObserver* record : parts_.records) {
     record->begin(plan_.header);
   }
-  play(stop);
+  begin();
+  while (ruling().state != GameState::over && !stop()) {
+    see_frame();
+    end_frame();
+  }
   const MatchEnd end{.complete = ruling().state == GameState::over, .state_hash = world_.state_hash()};
   for (MatchObserver* record : parts_.records) {
     record->end(end);
@@ -80,21 +84,26 @@ MatchEnd MatchRun::run(const std::function<bool()>& stop) {
   return end;
 }
 
-void MatchRun::play(const std::function<bool()>& stop) {
+void MatchRun::begin() {
   follow(ruling());
   tell(ruling(), {});
-  show_frame(look(), {});
-  while (ruling().state != GameState::over && !stop()) {
-    run_frame();
-    ++frame_;
-    const RefereeFrame seen = look();
-    const auto orders = ask_teams(seen);
-    touched_before_ = seen.touching;
-    world_.clear_touches();
-    follow(referee_.step(seen));
-    tell(ruling(), orders);
-    show_frame(seen, orders);
-  }
+  seen_ = look();
+  show_frame(seen_, {});
+}
+
+void MatchRun::see_frame() {
+  run_frame();
+  ++frame_;
+  seen_ = look();
+}
+
+void MatchRun::end_frame() {
+  const auto orders = ask_teams();
+  touched_before_ = seen_.touching;
+  world_.clear_touches();
+  follow(referee_.step(seen_));
+  tell(ruling(), orders);
+  show_frame(seen_, orders);
 }
 
 RefereeFrame MatchRun::look() const {
@@ -111,8 +120,14 @@ RefereeFrame MatchRun::look() const {
   return seen;
 }
 
+TeamView MatchRun::view(Team team) const {
+  RefereeFrame shown = seen_;
+  shown.touching = touched_before_;
+  return view_of(team, shown, ruling());
+}
+
 // With the ruling of the frame before, and the touches that it saw.
-std::array<std::optional<TeamOrders>, 2> MatchRun::ask_teams(const RefereeFrame& seen) {
+std::array<std::optional<TeamOrders>, 2> MatchRun::ask_teams() {
   std::array<std::optional<TeamOrders>, 2> orders;
   const Ruling& before = ruling();
   const bool tells_of_the_end =
@@ -120,10 +135,8 @@ std::array<std::optional<TeamOrders>, 2> MatchRun::ask_teams(const RefereeFrame&
   if (stands_still(before) && !tells_of_the_end) {
     return orders;
   }
-  RefereeFrame shown = seen;
-  shown.touching = touched_before_;
   for (const Team team : teams) {
-    const TeamOrders answer = parts_.teams[index_of(team)]->play(view_of(team, shown, before));
+    const TeamOrders answer = parts_.teams[index_of(team)]->play(view(team));
     if (!stands_still(before)) {
       orders[index_of(team)] = answer;
     }

@@ -55,13 +55,20 @@ class MatchRun {
   // a link, strategy or record throws.
   MatchEnd run(const std::function<bool()>& stop);
 
+  // The same, a frame at a time and without records' begin and end, for who answers from outside: begin(); then, until
+  // the match is over, see_frame(), in which time passes, and end_frame(), which asks the teams and has the referee rule.
+  void begin();
+  void see_frame();
+  void end_frame();
+  // What a team is shown of the frame that was seen last.
+  [[nodiscard]] TeamView view(Team team) const;
+
   [[nodiscard]] const Ruling& ruling() const { return referee_.ruling(); }
   [[nodiscard]] double simulated_s() const { return tick_ * tick_s; }
 
  private:
-  void play(const std::function<bool()>& stop);
   [[nodiscard]] RefereeFrame look() const;
-  [[nodiscard]] std::array<std::optional<TeamOrders>, 2> ask_teams(const RefereeFrame& seen);
+  [[nodiscard]] std::array<std::optional<TeamOrders>, 2> ask_teams();
   void follow(const Ruling& ruling);
   void place(std::size_t robot, const Pose& pose, bool with_jitter);
   void tell(const Ruling& ruling, const std::array<std::optional<TeamOrders>, 2>& orders);
@@ -80,6 +87,7 @@ class MatchRun {
 
   std::uint32_t tick_ = 0;
   std::int64_t frame_ = 0;
+  RefereeFrame seen_;
   bool settles_ = false;  // in a pause: the placement is done
   RobotSet on_field_ = RobotSet().set();
   RobotSet touched_before_;  // in the frame before: what a player is told

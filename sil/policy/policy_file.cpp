@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sil/policy/policy_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace striker::sil {
+
+namespace {
+
+// Gone with its content when it goes.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "striker-policy.XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error(fmt::format("{}: no directory can be made there", name));
+    }
+    path_ = name;
+  }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  ~TemporaryDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Its exit status, without its standard output.
+int run(const std::array<std::string, 5>& words) {
+  std::array<char*, 6> arguments{};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    arguments[i] = const_cast<char*>(words[i].c_str());
+  }
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    throw std::runtime_error(
+        fmt::format("{}: it makes a header of a model, and cannot be run: build it too", words[0]));
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+}  // namespace
+
+LoadedPolicy load_policy(const std::filesystem::path& file) {
+  if (file.extension() == ".hpp") {
+    return read_policy_header(file);
+  }
+  const TemporaryDirectory directory;
+  const std::filesystem::path header = directory.file("policy.hpp");
+  const auto exporter = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "striker-export";
+  if (run({exporter.string(), "--output", header.string(), "--", file.string()}) != 0) {
+    throw std::runtime_error(fmt::format("{}: striker-export made no header of it", file.string()));
+  }
+  LoadedPolicy policy = read_policy_header(header);
+  policy.name = file.stem().string();
+  return policy;
+}
+
+}  // namespace striker::sil

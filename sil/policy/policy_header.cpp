@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads an exported header: its one definition is made JSON, number by number, and read as that.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <stdexcept>
+#include <string_view>
+
+#include "firmware/host/files.hpp"
+#include "sil/policy/loaded_policy.hpp"
+
+namespace striker::sil {
+
+namespace {
+
+using Json = nlohmann::json;
+
+bool is_word(char letter) {
+  return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
+}
+
+// ".shift = 3" as "\"shift\": 3", "{{" as "[", StateElement::ball_x as "\"ball_x\"", 0x1FU as 31.
+std::string json_of(std::string_view text) {
+  std::string json;
+  for (std::size_t at = 0; at < text.size();) {
+    const char letter = text[at];
+    const bool is_double = at + 1 < text.size() && text[at + 1] == letter;
+    std::size_t end = at + 1;
+    if (is_word(letter)) {
+      end = static_cast<std::size_t>(
+          std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at), text.end(), is_word) -
+          text.begin());
+      const std::string word(text.substr(at, end - at));
+      const bool is_hexadecimal = word.starts_with("0x");
+      const bool stays =
+          std::isdigit(static_cast<unsigned char>(letter)) != 0 || word == "true" || word == "false";
+      if (is_hexadecimal) {
+        json += std::to_string(std::stoul(word, nullptr, 16));
+      } else if (word != "StateElement") {
+        json += stays ? word : '"' + word + '"';
+      }
+    } else if ((letter == '{' || letter == '}') && is_double) {
+      json += letter == '{' ? '[' : ']';
+      ++end;
+    } else if (letter == ',') {
+      const std::size_t next = text.find_first_not_of(" \n", end);
+      json += next == std::string_view::npos || text[next] == '}' ? "" : ",";
+    } else if (letter == '=') {
+      json += ':';
+    } else if (letter == '{' || letter == '}' || letter == '-') {
+      json += letter;
+    }
+    at = end;
+  }
+  return json;
+}
+
+template <class Number>
+Number whole(const Json& from) {
+  const auto value = from.get<std::int64_t>();
+  if (!from.is_number_integer() || value < std::numeric_limits<Number>::min() ||
+      value > std::int64_t{std::numeric_limits<Number>::max()}) {
+    throw std::out_of_range(fmt::format("{} is out of its type's range", from.dump()));
+  }
+  return static_cast<Number>(value);
+}
+
+std::vector<std::int32_t> numbers(const Json& from) {
+  std::vector<std::int32_t> values;
+  std::ranges::transform(from, std::back_inserter(values), whole<std::int32_t>);
+  return values;
+}
+
+policy::StateElement element_named(const std::string& name) {
+  for (const policy::StateElementRow& row : policy::state_elements) {
+    if (row.name == name) {
+      return row.element;
+    }
+  }
+  throw std::out_of_range(fmt::format("{} is no element of this controller's state", name));
+}
+
+LoadedLayer layer_of(const Json& from) {
+  LoadedLayer layer;
+  std::ranges::transform(from.at("weights"), std::back_inserter(layer.weights), numbers);
+  layer.biases = numbers(from.at("biases"));
+  layer.shift = whole<std::uint8_t>(from.at("shift"));
+  return layer;
+}
+
+LoadedPolicy policy_of(const Json& from) {
+  LoadedPolicy policy;
+  policy.identity = whole<std::uint32_t>(from.at("identity"));
+  policy.configuration_hash = whole<std::uint32_t>(from.at("configuration_hash"));
+  policy.decision_period_ms = whole<std::int32_t>(from.at("decision_period_ms"));
+  for (const Json& input : from.at("state")) {
+    policy.state.push_back({.element = element_named(input.at("element")),
+                            .decisions_ago = whole<std::uint8_t>(input.at("decisions_ago"))});
+  }
+  policy.mirrored = from.at("mirrored");
+  for (const Json& scale : from.at("input_scales")) {
+    policy.input_scales.push_back({.multiplier = whole<std::int32_t>(scale.at("multiplier")),
+                                   .shift = whole<std::uint8_t>(scale.at("shift"))});
+  }
+  for (const char* const name : {"layer1", "layer2", "output"}) {
+    policy.layers.push_back(layer_of(from.at(name)));
+  }
+  for (const Json& point : from.at("set_points")) {
+    policy.set_points.push_back({.left_mm_s = whole<std::int32_t>(point.at("left_mm_s")),
+                                 .right_mm_s = whole<std::int32_t>(point.at("right_mm_s"))});
+  }
+  for (const Json& golden : from.at("golden_vectors")) {
+    policy.golden_vectors.push_back({.raw = numbers(golden.at("raw")),
+                                     .sums = numbers(golden.at("sums")),
+                                     .action = whole<std::uint8_t>(golden.at("action"))});
+  }
+  return policy;
+}
+
+}  // namespace
+
+LoadedPolicy read_policy_header(const std::filesystem::path& file) {
+  const std::string text = host::read_file(file);
+  const std::regex begin(R"(\ninline constexpr Policy<([^>]*)> ([a-z_0-9]+) = )");
+  std::smatch found;
+  if (!std::regex_search(text, found, begin)) {
+    throw std::runtime_error(
+        fmt::format("{}: no policy is in it: give a header that striker-export wrote", file.string()));
+  }
+  const std::string body = found.suffix();
+  LoadedPolicy policy;
+  try {
+    policy = policy_of(Json::parse(json_of(body.substr(0, body.find("\n};") + 2))));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(
+        fmt::format("{}: it is damaged, or of another version: {}", file.string(), error.what()));
+  }
+  policy.name = found[2];
+  policy.is_int8 = found.str(1).find("int8") != std::string::npos;
+  require_sound(policy, file.string());
+  return policy;
+}
+
+}  // namespace striker::sil

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kick in Python: one world, and many.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <optional>
+#include <string>
+
+#include "training/python/native/arrays.hpp"
+#include "training/python/native/kick_worlds.hpp"
+#include "training/python/native/module.hpp"
+#include "training/python/native/tasks.hpp"
+
+namespace striker::training {
+
+namespace {
+
+// What of an outcome Python is told when an episode ended.
+constexpr std::array outcome_fields = {"episode_reward",    "contact",       "contact_decision",
+                                       "theta_contact_rad", "v_contact_m_s", "front_face"};
+
+[[noreturn]] void refuse_action(std::int64_t action, int actions) {
+  throw std::invalid_argument("action " + std::to_string(action) + ": it must be 0 to " +
+                              std::to_string(actions - 1));
+}
+
+Array<float> copy_of(const Features& features) {
+  Array<float> copy(features.size());
+  std::copy(features.data(), features.data() + features.size(), copy.mutable_data());
+  return copy;
+}
+
+// One world.
+class Kick {
+ public:
+  explicit Kick(const Tasks& tasks)
+      : player_(tasks.environments), actions_(static_cast<int>(tasks.environments.front().actions.size())) {}
+
+  Array<float> reset(std::uint64_t seed, std::uint64_t episode) {
+    player_.reset(seed, episode);
+    return copy_of(player_.now().features());
+  }
+
+  // Gymnasium's five.
+  py::tuple step(std::int64_t action) {
+    if (!player_.is_playing()) {
+      throw std::runtime_error("the episode has ended, or none has begun: call reset()");
+    }
+    if (action < 0 || action >= actions_) {
+      refuse_action(action, actions_);
+    }
+    const StepResult result = player_.step(static_cast<int>(action));
+    return py::make_tuple(copy_of(player_.now().features()), result.reward, result.end && !result.truncated,
+                          result.truncated, result.end ? outcome() : py::dict());
+  }
+
+  [[nodiscard]] Record record() const { return player_.record(); }
+
+  // Episode's seed, number and actions: what restore() takes.
+  [[nodiscard]] py::tuple state() const {
+    return py::make_tuple(player_.seed(), player_.episode(), player_.actions());
+  }
+
+  void restore(std::uint64_t seed, std::uint64_t episode, const std::vector<std::uint8_t>& actions) {
+    player_.reset(seed, episode);
+    for (const std::uint8_t action : actions) {
+      player_.step(action);
+    }
+  }
+
+  // Where robot and ball are, as the learner sees them: x, y, heading; x, y; in the field's axes.
+  [[nodiscard]] std::array<double, 5> places() const {
+    const Observation& seen = player_.now().seen();
+    return {seen.robot.x_m, seen.robot.y_m, seen.robot.heading_rad, seen.ball.position_m.x,
+            seen.ball.position_m.y};
+  }
+
+ private:
+  [[nodiscard]] py::dict outcome() const {
+    const sil::KickOutcome& outcome = player_.now().outcome();
+    py::dict said;
+    said["episode_reward"] = outcome.reward;
+    said["contact"] = outcome.contact;
+    if (outcome.contact) {
+      said["contact_decision"] = outcome.contact_decision;
+      said["theta_contact_rad"] = outcome.theta_contact_rad;
+      said["v_contact_m_s"] = outcome.v_contact_m_s;
+      said["front_face"] = outcome.front_face;
+    }
+    return said;
+  }
+
+  KickPlayer player_;
+  int actions_;
+};
+
+// KickWorlds with NumPy's arrays in and out.
+class Worlds {
+ public:
+  Worlds(const Tasks& tasks, int worlds, int threads, bool same_step)
+      : worlds_(tasks.environments, worlds, threads,
+                same_step ? Autoreset::same_step : Autoreset::next_step) {}
+
+  void reset(const std::vector<std::uint64_t>& seeds, std::uint64_t first, Array<float>& observations) {
+    float* const to = elements(observations, py::ssize_t{worlds_.size()} * worlds_.inputs(), "observations");
+    if (seeds.size() == 1) {
+      worlds_.reset(seeds.front(), first, to);
+    } else if (seeds.size() == static_cast<std::size_t>(worlds_.size())) {
+      worlds_.reset(seeds, first, to);
+    } else {
+      throw std::invalid_argument("give one seed, or one for each world");
+    }
+  }
+
+  int step(const Array<std::int64_t>& actions, Array<float>& observations, Array<double>& rewards,
+           Array<bool>& terminated, Array<bool>& truncated, std::optional<Array<double>>& records,
+           std::optional<Array<float>>& finals) {
+    const py::ssize_t worlds = worlds_.size();
+    const std::int64_t* const chosen = elements(actions, worlds, "actions");
+    for (py::ssize_t world = 0; world < worlds; ++world) {
+      if (chosen[world] < 0 || chosen[world] >= worlds_.actions()) {
+        refuse_action(chosen[world], worlds_.actions());
+      }
+    }
+    StepArrays out;
+    out.observations = elements(observations, worlds * worlds_.inputs(), "observations");
+    out.rewards = elements(rewards, worlds, "rewards");
+    out.terminated = elements(terminated, worlds, "terminated");
+    out.truncated = elements(truncated, worlds, "truncated");
+    if (records) {
+      out.records = elements(*records, worlds * static_cast<py::ssize_t>(record_fields.size()), "records");
+    }
+    if (finals) {
+      out.final_observations = elements(*finals, worlds * worlds_.inputs(), "final observations");
+    }
+    const py::gil_scoped_release others_may_run;
+    return worlds_.step(chosen, out);
+  }
+
+  // A row a world: outcome_fields.
+  [[nodiscard]] Array<double> outcomes() const {
+    Array<double> table(
+        std::vector<py::ssize_t>{worlds_.size(), static_cast<py::ssize_t>(outcome_fields.size())});
+    double* to = table.mutable_data();
+    for (int world = 0; world < worlds_.size(); ++world) {
+      const sil::KickOutcome& outcome = worlds_.outcome(world);
+      *to++ = outcome.reward;
+      *to++ = outcome.contact ? 1.0 : 0.0;
+      *to++ = outcome.contact_decision;
+      *to++ = outcome.theta_contact_rad;
+      *to++ = outcome.v_contact_m_s;
+      *to++ = outcome.front_face ? 1.0 : 0.0;
+    }
+    return table;
+  }
+
+  [[nodiscard]] py::tuple state() const {
+    py::list players;
+    for (int world = 0; world < worlds_.size(); ++world) {
+      const KickPlayer& player = worlds_.player(world);
+      players.append(py::make_tuple(player.seed(), player.episode(), player.actions()));
+    }
+    return py::make_tuple(worlds_.stride(), players);
+  }
+
+  void restore(
+      std::uint64_t stride,
+      const std::vector<std::tuple<std::uint64_t, std::uint64_t, std::vector<std::uint8_t>>>& players) {
+    worlds_.set_stride(stride);
+    for (std::size_t world = 0; world < players.size(); ++world) {
+      const auto& [seed, episode, actions] = players[world];
+      worlds_.restore(static_cast<int>(world), seed, episode, actions);
+    }
+  }
+
+ private:
+  KickWorlds worlds_;
+};
+
+std::vector<std::pair<double, double>> set_points(const Tasks& tasks) {
+  std::vector<std::pair<double, double>> pairs;
+  for (const SetPoint& action : tasks.environments.front().actions) {
+    pairs.emplace_back(action.left_m_s, action.right_m_s);
+  }
+  return pairs;
+}
+
+}  // namespace
+
+void add_kick(py::module_& module) {
+  module.attr("RECORD_FIELDS") = py::tuple(py::cast(record_fields));
+  module.attr("OUTCOME_FIELDS") = py::tuple(py::cast(outcome_fields));
+  py::class_<Tasks>(module, "Tasks")
+      .def(py::init(&tasks_of), py::arg("config"), py::arg("text"), py::arg("robot"), py::arg("changes"))
+      .def_readonly("text", &Tasks::text)
+      .def_property_readonly("inputs",
+                             [](const Tasks& tasks) { return tasks.environments.front().inputs.size(); })
+      .def_property_readonly("set_points", &set_points);
+  py::class_<Kick>(module, "Kick")
+      .def(py::init<const Tasks&>())
+      .def("reset", &Kick::reset)
+      .def("step", &Kick::step)
+      .def("record", &Kick::record)
+      .def("state", &Kick::state)
+      .def("restore", &Kick::restore)
+      .def("places", &Kick::places);
+  py::class_<Worlds>(module, "KickWorlds")
+      .def(py::init<const Tasks&, int, int, bool>(), py::arg("tasks"), py::arg("worlds"), py::arg("threads"),
+           py::arg("same_step"))
+      // No array is converted: it would be a copy, and the caller's would stay as it is.
+      .def("reset", &Worlds::reset, py::arg("seeds"), py::arg("first"), py::arg("observations").noconvert())
+      .def("step", &Worlds::step, py::arg("actions").noconvert(), py::arg("observations").noconvert(),
+           py::arg("rewards").noconvert(), py::arg("terminated").noconvert(),
+           py::arg("truncated").noconvert(), py::arg("records").noconvert(),
+           py::arg("final_observations").noconvert())
+      .def("outcomes", &Worlds::outcomes)
+      .def("state", &Worlds::state)
+      .def("restore", &Worlds::restore);
+}
+
+}  // namespace striker::training
