@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reset, the vector table and what every exception ends in (Armv6-M to Armv8.1-M Architecture Reference
-// Manuals, "Exception model"). All are faults but the tick, as no
-// interrupt is ever enabled: a driver that takes one brings a start-up file of its own.
+// Manuals, "Exception model"). All are faults but the tick and what the board lists as HANDLERS. Nobody sets a priority: all
+// of these have the highest that there is, and none interrupts another.
 #include <array>
 #include <cstdint>
 
@@ -17,6 +17,9 @@ extern std::uint32_t stack_top;
 [[noreturn]] void exception();
 void tick_interrupt();
 int main();
+#define STRIKER_HANDLER(line, name) void name();
+STRIKER_HANDLERS
+#undef STRIKER_HANDLER
 }
 
 namespace {
@@ -38,8 +41,20 @@ constexpr std::array<Handler, count> all_are(Handler handler) {
   return handlers;
 }
 
+constexpr auto interrupt_handlers() {
+  auto handlers = all_are<STRIKER_INTERRUPTS>(exception);
+#define STRIKER_HANDLER(line, name) handlers[line] = name;
+  STRIKER_HANDLERS
+#undef STRIKER_HANDLER
+  return handlers;
+}
+
 [[gnu::section(".vectors"), gnu::used]] constexpr VectorTable vectors = {
-    &stack_top, reset, all_are<13>(exception), tick_interrupt, all_are<STRIKER_INTERRUPTS>(exception)};
+    &stack_top, reset, all_are<13>(exception), tick_interrupt, interrupt_handlers()};
+
+#if __ARM_ARCH >= 7
+constexpr std::uintptr_t vector_table_offset = 0xE000ED08;  // VTOR
+#endif
 
 #ifdef __ARM_FP
 constexpr std::uintptr_t coprocessor_access_control = 0xE000ED88;
@@ -61,6 +76,11 @@ std::uint32_t fault_status() {
 }  // namespace
 
 extern "C" void reset() {
+#if __ARM_ARCH >= 7
+  // A boot loader leaves it at its own table.
+  *reinterpret_cast<volatile std::uintptr_t*>(vector_table_offset) =
+      reinterpret_cast<std::uintptr_t>(&vectors);
+#endif
 #ifdef __ARM_FP
   // The FPU's registers, which are the vector unit's too, before the first instruction that names one.
   auto& access = *reinterpret_cast<volatile std::uint32_t*>(coprocessor_access_control);
