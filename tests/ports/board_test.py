@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -14,9 +15,11 @@ import unittest
 import controller_image_test
 import image_test
 import qemu_image
+import stack_usage
 import striker_dbc
 
 BOARDS = sys.argv.pop(1)
+POLICY = os.path.join(image_test.ROOT, "firmware", "policy", "exported", "kick.hpp")
 
 OWN_BOARD = os.path.join(os.path.dirname(os.path.abspath(__file__)), "own-board")
 
@@ -80,7 +83,7 @@ class Board(unittest.TestCase):
     def lines_of(self, image, sent):
         """What the image says in 2,000 ticks, with some letters sent to it before."""
         path = os.path.join(os.path.dirname(self.folder), "serial")
-        line = qemu_image.machine({"qemu": OWN_MACHINE}, image) + ["-serial", f"unix:{path},server=on,wait=on"]
+        line = qemu_image.machine({"qemu": OWN_MACHINE}, image, icount_shift=4) + ["-serial", f"unix:{path},server=on,wait=on"]
         commanded, received = b"t%03X" % striker_dbc.identifier("WheelCommand"), b""
         with subprocess.Popen(line, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
             try:
@@ -161,6 +164,25 @@ class Board(unittest.TestCase):
                 self.write(**changes)
                 self.assert_refused([f"STRIKER_BOARD_DIR={self.folder}"], f"{self.folder}/board.cmake: {told}",
                                     "read_board.cmake says what every field means")
+
+    def test_boards_that_nobody_emulates_build_with_their_interrupts_in_the_vector_table(self):
+        with open(BOARDS, encoding="utf-8") as text:
+            names = [board["name"] for board in json.load(text) if not board["qemu"]]
+        self.assertEqual(names, ["stm32f405", "stm32f446"])
+        for name in names:
+            build_dir = f"{self.build_dir}-{name}"
+            image_test.build({"name": name}, POLICY, build_dir, ("striker-controller",))
+            image = image_test.image(build_dir, "controller")
+            addresses = stack_usage.symbols(image)
+            vectors = os.path.join(build_dir, "vectors")
+            run("arm-none-eabi-objcopy", "-O", "binary", "-j", ".vectors", image, vectors)
+            with open(vectors, "rb") as table:
+                entries = [entry & ~1 for entry in struct.unpack(f"<{os.path.getsize(vectors) // 4}I", table.read())]
+            self.assertEqual(entries[0], addresses["stack_top"])
+            self.assertEqual([entries[1], entries[15], entries[16 + 20]],
+                             [addresses[name] for name in ("reset", "tick_interrupt", "can1_reception")])
+            self.assertEqual(set(entries[2:15] + entries[16:36] + entries[37:]), {addresses["exception"]})
+            self.assertEqual(len(entries), 16 + {"stm32f405": 82, "stm32f446": 97}[name])
 
     def test_every_board_has_a_preset_of_its_name(self):
         with open(BOARDS, encoding="utf-8") as text:

@@ -76,6 +76,24 @@ TEST_F(BxCanBus, BusOffIsSeenOnceAtLeastAndTakesEverythingBack) {
   EXPECT_TRUE(transmit());
 }
 
+TEST_F(BxCanBus, ComesBackOnlyOnceEverythingWasTakenBack) {
+  join();
+  model.takes_back_at_once = false;
+  go_bus_off();
+  for (; now_ms < 50; ++now_ms) {
+    settle();
+    model.recessive_bits(recovery_bits);
+    ASSERT_EQ(driver.health(now_ms), BusHealth::bus_off);
+    ASSERT_FALSE(model.begin_transmission());
+  }
+  model.take_back_now();
+  settle();
+  model.recessive_bits(recovery_bits);
+  settle();
+  EXPECT_EQ(driver.health(now_ms), BusHealth::active);
+  EXPECT_TRUE(transmitted_ids().empty());
+}
+
 TEST_F(BxCanBus, OffTheBusNothingIsTakenUntilTheBusHasBeenQuietFor128Times11Bits) {
   join();
   go_bus_off();

@@ -96,6 +96,17 @@ class BxCanModel {
 
   std::function<void()> handler;
   bool acknowledges_initialisation = true;
+  bool takes_back_at_once = true;
+
+  // What was to be taken back meanwhile.
+  void take_back_now() {
+    takes_back_at_once = true;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (mailboxes_[i].abort && in_flight_ != i) {
+        complete(i, false);
+      }
+    }
+  }
 
   [[nodiscard]] bool is_on_bus() const {
     return !initialising_ && !initialise_requested() && !asleep_ && !bus_off_;
@@ -227,7 +238,7 @@ class BxCanModel {
       }
       if ((value & can1::take_back(i)) != 0 && mailboxes_[i].pending) {
         mailboxes_[i].abort = true;
-        if (in_flight_ != i) {
+        if (in_flight_ != i && takes_back_at_once) {
           complete(i, false);
         }
       }
