@@ -66,7 +66,7 @@ class Board(unittest.TestCase):
         shutil.copytree(OWN_BOARD, board)
         done = self.configure(f"STRIKER_BOARD_DIR={board}")
         self.assertEqual(done.returncode, 0, done.stderr)
-        done = run("cmake", "--build", self.build_dir, "--target", "striker-controller")
+        done = run("cmake", "--build", self.build_dir, "--target", "striker-controller", "striker-check", "striker-check-bus")
         self.assertEqual(done.returncode, 0, done.stdout)
         image = image_test.image(self.build_dir, "controller")
         self.assertGreater(os.path.getsize(image.replace(".elf", ".bin")), 0)
