@@ -52,10 +52,6 @@ constexpr auto interrupt_handlers() {
 [[gnu::section(".vectors"), gnu::used]] constexpr VectorTable vectors = {
     &stack_top, reset, all_are<13>(exception), tick_interrupt, interrupt_handlers()};
 
-#if __ARM_ARCH >= 7
-constexpr std::uintptr_t vector_table_offset = 0xE000ED08;  // VTOR
-#endif
-
 #ifdef __ARM_FP
 constexpr std::uintptr_t coprocessor_access_control = 0xE000ED88;
 constexpr std::uint32_t full_access_to_fpu = 0xFU << 20U;
@@ -76,11 +72,6 @@ std::uint32_t fault_status() {
 }  // namespace
 
 extern "C" void reset() {
-#if __ARM_ARCH >= 7
-  // A boot loader leaves it at its own table.
-  *reinterpret_cast<volatile std::uintptr_t*>(vector_table_offset) =
-      reinterpret_cast<std::uintptr_t>(&vectors);
-#endif
 #ifdef __ARM_FP
   // The FPU's registers, which are the vector unit's too, before the first instruction that names one.
   auto& access = *reinterpret_cast<volatile std::uint32_t*>(coprocessor_access_control);
