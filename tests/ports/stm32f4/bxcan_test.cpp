@@ -11,7 +11,6 @@ namespace {
 
 using can::BusHealth;
 using model::Outcome;
-using model::WireFrame;
 
 TEST_F(BxCanBus, JoinsWhenTheInitialisationIsAcknowledgedAndTheBusWasQuiet) {
   model.acknowledges_initialisation = false;

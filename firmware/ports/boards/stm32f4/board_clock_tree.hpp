@@ -3,6 +3,7 @@
 #pragma once
 
 #include "firmware/ports/boards/stm32f4/clock_tree.hpp"
+#include "firmware/ports/boards/stm32f4/memory.hpp"
 
 namespace striker::stm32f4 {
 

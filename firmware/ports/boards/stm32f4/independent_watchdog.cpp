@@ -4,6 +4,7 @@
 // 20 ms are 14 to 38, within what watchdog.hpp allows. QEMU has none.
 #include "firmware/ports/bare_metal/watchdog.hpp"
 
+#include "firmware/ports/boards/stm32f4/memory.hpp"
 #include "firmware/ports/boards/stm32f4/registers.hpp"
 
 namespace striker::bare_metal {

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The STM32F4's registers, by address, as RM0090 (F405) and RM0390 (F446) have them in common. What needs more than one
-// write in a row takes its access to them as an argument, so that tests on a host put a model in their place.
+// write in a row takes its access to them as an argument, so that tests on a host put a model in the place of memory.hpp.
 #pragma once
 
 #include <cstdint>
 
 namespace striker::stm32f4 {
-
-struct Memory {
-  static std::uint32_t read(std::uint32_t address) {
-    return *reinterpret_cast<const volatile std::uint32_t*>(address);
-  }
-  static void write(std::uint32_t address, std::uint32_t value) {
-    *reinterpret_cast<volatile std::uint32_t*>(address) = value;
-  }
-};
 
 template <class Registers>
 void set_bits(Registers& registers, std::uint32_t address, std::uint32_t bits) {
