@@ -14,6 +14,7 @@ import unittest
 
 import controller_image_test
 import image_test
+import processor_fault_test
 import qemu_image
 import stack_usage
 import striker_dbc
@@ -21,6 +22,7 @@ import striker_dbc
 BOARDS = sys.argv.pop(1)
 POLICY = os.path.join(image_test.ROOT, "firmware", "policy", "exported", "kick.hpp")
 
+CLOCK = 4  # FaultCause::clock of fault_record.hpp
 OWN_BOARD = os.path.join(os.path.dirname(os.path.abspath(__file__)), "own-board")
 
 # A board that is complete, with fields that each test changes.
@@ -183,6 +185,28 @@ class Board(unittest.TestCase):
                              [addresses[name] for name in ("reset", "tick_interrupt", "can1_reception")])
             self.assertEqual(set(entries[2:15] + entries[16:36] + entries[37:]), {addresses["exception"]})
             self.assertEqual(len(entries), 16 + {"stm32f405": 82, "stm32f446": 97}[name])
+
+            if name == "stm32f405":
+                self.clock_does_not_start(image, addresses["kept_fault"])
+
+    def clock_does_not_start(self, image, kept_fault):
+        """QEMU's STM32F405 has no clock control: what waits for a crystal there waits in vain."""
+        path = os.path.join(os.path.dirname(self.folder), "control")
+        memory = os.path.join(os.path.dirname(self.folder), "kept_fault")
+        machine = qemu_image.machine({"qemu": {**OWN_MACHINE, "machine": "netduinoplus2"}}, image, icount_shift=3)
+        with subprocess.Popen(machine + ["-serial", "none", "-S", "-qmp", f"unix:{path},server=on,wait=off"],
+                              stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            try:
+                control = processor_fault_test.Control(path)
+                control.ask("cont")
+                self.assertEqual(control.count("RESET", processor_fault_test.MOST_RESETS, quiet_s=2),
+                                 processor_fault_test.MOST_RESETS, "it tries again, and then stops")
+                control.ask("pmemsave", val=kept_fault, size=32, filename=memory)
+            finally:
+                process.kill()
+        with open(memory, "rb") as record:
+            magic, cause, *_ = struct.unpack("<8I", record.read())
+        self.assertEqual((magic, cause), (processor_fault_test.MAGIC, CLOCK), "the record tells why")
 
     def test_every_board_has_a_preset_of_its_name(self):
         with open(BOARDS, encoding="utf-8") as text:
