@@ -39,8 +39,8 @@
 //
 // Interrupts and threads. All four are called from the main loop alone, never from an interrupt. A driver
 // that polls needs no interrupt. One that takes some protects what it shares with them, keeps them below 5
-// us, brings a start-up file of its own (in cortex_m/startup.cpp every interrupt but the tick ends in a fault),
-// and adds their stack to what stack_usage.py finds: that knows tick_interrupt alone.
+// us, and has them listed as HANDLERS in board.cmake (every other interrupt ends in a fault); stack_usage.py
+// reads the vector table, and counts the deepest of them on top of the deepest point.
 #pragma once
 
 #include "firmware/can/bus_health.hpp"

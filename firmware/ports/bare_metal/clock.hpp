@@ -7,7 +7,7 @@
 // nodes' clocks does no harm: decisions follow the pictures as they come.
 //
 // Ticks count on while a step runs over them, by an interrupt of the highest priority (its handler is
-// called tick_interrupt: stack_usage.py counts its stack on top of the deepest point) or by a counter that
+// called tick_interrupt; stack_usage.py counts the deepest handler's stack on top of the deepest point) or by a counter that
 // runs freely: the loop sees from the difference how many it has missed. Called from the main loop alone.
 #pragma once
 

@@ -26,6 +26,7 @@ enum class FaultCause : std::uint32_t {
   exception = 1,       // of the processor: FaultRecord says which, and where
   watchdog = 2,        // the loop completed no turn for watchdog_timeout_ms
   stack_overflow = 3,  // the stack went to its end or beyond it
+  clock = 4,           // a clock did not start: neither ticks nor bits would have their time
 };
 
 struct FaultRecord {

@@ -109,8 +109,20 @@ def worst(functions, frames, name, path=()):
     return function["result"]
 
 
+def interrupt_handlers(image, functions):
+    """What a Cortex-M's vector table has for the tick and for interrupts, but for the fault of those that nobody handles."""
+    text = subprocess.run(["arm-none-eabi-objdump", "-s", "-j", ".vectors", image], check=True, capture_output=True,
+                          text=True).stdout
+    table = b"".join(bytes.fromhex("".join(line[line.index(" ", 1):].split("  ")[0].split()))
+                     for line in text.splitlines() if re.match(r"^ [0-9a-f]+ ", line))
+    at = {function["at"]: name for name, function in functions.items()}
+    entries = {int.from_bytes(table[i:i + 4], "little") & ~1 for i in range(4 * 15, len(table), 4)}
+    return sorted({at[entry] for entry in entries if entry in at} - {"exception"})
+
+
 def stack_usage(image, build_dir):
-    """(bytes, path) of the image's worst case: from reset down, and an interrupt on top of the deepest point."""
+    """(bytes, path) of the image's worst case: from reset down, and the deepest of the interrupts, which do not nest, on top
+    of the deepest point."""
     functions, frames = read_image(image), compiler_frames(build_dir)
     if not frames:
         raise StackError(f"{build_dir}: no .ci file; build with -fcallgraph-info=su")
@@ -118,7 +130,7 @@ def stack_usage(image, build_dir):
     if "start" in functions:  # the Cortex-R5's reset goes there by a register
         total, path = worst(functions, frames, "start")
     if "tick_interrupt" in functions:
-        below, _ = worst(functions, frames, "tick_interrupt")
+        below = max(worst(functions, frames, name)[0] for name in interrupt_handlers(image, functions))
         has_floats = any("vpush" in line or "vldmia" in line for line in path) or "vldmia" in subprocess.run(
             ["arm-none-eabi-objdump", "-d", image], check=True, capture_output=True, text=True).stdout
         frame = EXCEPTION_FRAME_BYTES + (FLOAT_FRAME_BYTES if has_floats else 0)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What a board is: a folder with a board.cmake, which says everything in one call. STRIKER_BOARD names the folder: one
-# beside this file by its name, any other by its absolute path. Several boards may have the same processor.
+# What a board is: a folder with a board.cmake, which says everything in one call. STRIKER_BOARD names a folder beside this
+# file, STRIKER_BOARD_DIR any other by its path. Several boards may have the same processor.
 #
 #   striker_add_board(
 #     NAME mps2-an386             the folder's name
@@ -10,8 +10,11 @@
 #     FLASH 4M
 #     RAM_ORIGIN 0x20000000
 #     RAM 4M
+#     IMAGE_FLASH 48K             what of them the controller's image may take: by default 48K of flash, 64K on cores without
+#     IMAGE_RAM 4K                SMLAD, and 4K of RAM, stack included
 #     CLOCK_HZ 25000000           what CLOCK counts; sources see it as STRIKER_CLOCK_HZ
 #     INTERRUPTS 32               lines of its interrupt controller: a vector for each, see cortex_m/startup.cpp
+#     HANDLERS 20=name...         of which these are handled, by a driver's extern "C" void name(); every other is a fault
 #     SOURCES file...             in every image: reset, vector table, and what hardware needs before main
 #     CLOCK file...               implements bare_metal/clock.hpp
 #     CAN file... | slcan         implements bare_metal/can_bus.hpp; slcan does it over UART
@@ -23,7 +26,9 @@
 #     QEMU_ARGUMENTS word...      what starts {image}: -kernel {image} by default
 #     QEMU_POWER_ON path)         a processor that QEMU leaves off, as a path of its object model
 #
-# Files are looked for in the board's folder, then in firmware/ports/bare_metal, which has what boards share.
+# Files are looked for in the board's folder, then in firmware/ports/bare_metal, which has what boards share. A field that is
+# missing or wrong ends the configuration: check_board.cmake says what each has to be.
+include(${CMAKE_CURRENT_LIST_DIR}/check_board.cmake)
 
 # striker_read_board(BOARD): BOARD_FOLDER and, of the call's fields, BOARD_NAME, BOARD_CPU and so on, in the caller's
 # scope, with complete paths. Called without a compiler too: by the toolchain file, and by the host's build.
@@ -36,9 +41,10 @@ function(striker_read_board board)
     striker_known_boards(known)
     list(JOIN known ", " known)
     message(FATAL_ERROR "STRIKER_BOARD: '${board}' is no board: there is no ${folder}/board.cmake. "
-                        "Give one of ${known}, or the absolute path of a board's folder.")
+                        "Give one of ${known}, or STRIKER_BOARD_DIR, the path of a board's folder.")
   endif()
   set(BOARD_FOLDER "${folder}")
+  set(BOARD_NAME "")
   include("${folder}/board.cmake")
   if(NOT BOARD_NAME)
     message(FATAL_ERROR "${folder}/board.cmake: it does not call striker_add_board; "
@@ -56,46 +62,14 @@ function(striker_known_boards variable)
   set(${variable} ${files} PARENT_SCOPE)
 endfunction()
 
-set(striker_board_words NAME CPU LABEL FLASH_ORIGIN FLASH RAM_ORIGIN RAM CLOCK_HZ INTERRUPTS QEMU_MACHINE QEMU_SYSTEM QEMU_POWER_ON)
-set(striker_board_lists SOURCES CLOCK CAN UART WATCHDOG DEFINITIONS QEMU_ARGUMENTS)
+set(striker_board_words NAME CPU LABEL FLASH_ORIGIN FLASH RAM_ORIGIN RAM IMAGE_FLASH IMAGE_RAM CLOCK_HZ INTERRUPTS QEMU_MACHINE QEMU_SYSTEM QEMU_POWER_ON)
+set(striker_board_lists HANDLERS SOURCES CLOCK CAN UART WATCHDOG DEFINITIONS QEMU_ARGUMENTS)
 
 function(striker_add_board)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "" "${striker_board_words}" "${striker_board_lists}")
-  if(ARG_UNPARSED_ARGUMENTS)
-    striker_board_error("'${ARG_UNPARSED_ARGUMENTS}' belongs to no field")
-  endif()
-  foreach(field NAME CPU FLASH_ORIGIN FLASH RAM_ORIGIN RAM CLOCK_HZ INTERRUPTS SOURCES CLOCK CAN WATCHDOG)
-    if("${ARG_${field}}" STREQUAL "")
-      striker_board_error("${field} is missing")
-    endif()
-  endforeach()
-  cmake_path(GET CMAKE_CURRENT_LIST_DIR FILENAME folder_name)
-  if(NOT ARG_NAME STREQUAL folder_name)
-    striker_board_error("NAME is '${ARG_NAME}', but the folder's name is '${folder_name}': they have to agree")
-  endif()
-  foreach(field FLASH_ORIGIN RAM_ORIGIN)
-    if(NOT ARG_${field} MATCHES "^0x[0-9A-Fa-f]+$")
-      striker_board_error("${field} is '${ARG_${field}}', but has to be an address such as 0x20000000")
-    endif()
-  endforeach()
-  foreach(field FLASH RAM)
-    if(NOT ARG_${field} MATCHES "^[0-9]+[KM]?$")
-      striker_board_error("${field} is '${ARG_${field}}', but has to be a size in bytes such as 256K")
-    endif()
-  endforeach()
-  if(NOT ARG_CLOCK_HZ MATCHES "^[1-9][0-9]*$")
-    striker_board_error("CLOCK_HZ is '${ARG_CLOCK_HZ}', but has to be a number of hertz such as 16000000")
-  endif()
+  striker_check_board()
   if(ARG_CAN STREQUAL "slcan")
-    if(NOT ARG_UART)
-      striker_board_error("UART is missing: CAN slcan speaks over it")
-    endif()
     set(ARG_CAN slcan_bus.cpp)
-  elseif(ARG_UART)
-    striker_board_error("UART belongs to CAN slcan alone: add its file to CAN, or leave it out")
-  endif()
-  if(NOT ARG_INTERRUPTS MATCHES "^[0-9]+$")
-    striker_board_error("INTERRUPTS is '${ARG_INTERRUPTS}', but has to be a number of lines such as 32")
   endif()
   if(ARG_WATCHDOG STREQUAL "none")
     set(ARG_WATCHDOG no_watchdog.cpp)
@@ -103,6 +77,16 @@ function(striker_add_board)
   if(NOT ARG_LABEL)
     set(ARG_LABEL ${ARG_CPU})
   endif()
+  if(NOT ARG_IMAGE_FLASH)
+    set(ARG_IMAGE_FLASH 48K)
+    if(ARG_CPU MATCHES "^cortex-m(0|0plus|1|3)$")
+      set(ARG_IMAGE_FLASH 64K)  # the same network takes more code without SMLAD
+    endif()
+  endif()
+  if(NOT ARG_IMAGE_RAM)
+    set(ARG_IMAGE_RAM 4K)
+  endif()
+  striker_check_memory_holds_image()
   if(NOT ARG_QEMU_SYSTEM)
     set(ARG_QEMU_SYSTEM qemu-system-arm)
   endif()
@@ -122,18 +106,15 @@ function(striker_find_sources variable field)
   cmake_path(GET CMAKE_CURRENT_FUNCTION_LIST_DIR PARENT_PATH ports)
   set(found "")
   foreach(file ${${variable}})
-    if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/${file}")
-      list(APPEND found "${CMAKE_CURRENT_LIST_DIR}/${file}")
-    elseif(EXISTS "${ports}/bare_metal/${file}")
-      list(APPEND found "${ports}/bare_metal/${file}")
+    set(here "${CMAKE_CURRENT_LIST_DIR}/${file}")
+    set(shared "${ports}/bare_metal/${file}")
+    if(EXISTS "${here}" AND NOT IS_DIRECTORY "${here}")
+      list(APPEND found "${here}")
+    elseif(EXISTS "${shared}" AND NOT IS_DIRECTORY "${shared}")
+      list(APPEND found "${shared}")
     else()
       striker_board_error("${field}: no ${file}, neither in the board's folder nor in ${ports}/bare_metal")
     endif()
   endforeach()
   set(${variable} ${found} PARENT_SCOPE)
-endfunction()
-
-function(striker_board_error text)
-  message(FATAL_ERROR "${CMAKE_CURRENT_LIST_FILE}: ${text}. "
-                      "${CMAKE_CURRENT_FUNCTION_LIST_FILE} says what every field means.")
 endfunction()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reset, the vector table and what every exception ends in (Armv6-M to Armv8.1-M Architecture Reference
-// Manuals, "Exception model"). All are faults but the tick, as no
-// interrupt is ever enabled: a driver that takes one brings a start-up file of its own.
+// Manuals, "Exception model"). All are faults but the tick and what the board lists as HANDLERS. Nobody sets a priority: all
+// of these have the highest that there is, and none interrupts another.
 #include <array>
 #include <cstdint>
 
@@ -17,6 +17,9 @@ extern std::uint32_t stack_top;
 [[noreturn]] void exception();
 void tick_interrupt();
 int main();
+#define STRIKER_HANDLER(line, name) void name();
+STRIKER_HANDLERS
+#undef STRIKER_HANDLER
 }
 
 namespace {
@@ -38,8 +41,16 @@ constexpr std::array<Handler, count> all_are(Handler handler) {
   return handlers;
 }
 
+constexpr auto interrupt_handlers() {
+  auto handlers = all_are<STRIKER_INTERRUPTS>(exception);
+#define STRIKER_HANDLER(line, name) handlers[line] = name;
+  STRIKER_HANDLERS
+#undef STRIKER_HANDLER
+  return handlers;
+}
+
 [[gnu::section(".vectors"), gnu::used]] constexpr VectorTable vectors = {
-    &stack_top, reset, all_are<13>(exception), tick_interrupt, all_are<STRIKER_INTERRUPTS>(exception)};
+    &stack_top, reset, all_are<13>(exception), tick_interrupt, interrupt_handlers()};
 
 #ifdef __ARM_FP
 constexpr std::uintptr_t coprocessor_access_control = 0xE000ED88;
