@@ -55,16 +55,21 @@ int main() {
   start_watchdog();
   std::uint32_t last_sync = ticks();
   std::uint32_t last_told = last_sync;
+  std::uint32_t last_fed = last_sync;
   for (;;) {
     if (tick_loop.turn()) {
       dropped_frames = static_cast<std::uint32_t>(tick_loop.dropped_frames());
       last_sync = sync.answered_sync() ? ticks() : last_sync;
     }
     const std::uint32_t now = ticks();
+    if (now == last_fed) {
+      continue;
+    }
+    last_fed = now;
+    feed_watchdog();
     if (now - last_sync > sync_timeout_ticks && now - last_told >= told_again_ticks) {
       last_told = now;
       sync.overdue();
     }
-    feed_watchdog();
   }
 }

@@ -68,7 +68,9 @@ class MeasuredTicks {
   template <class BusType>
   std::optional<loop::Tick> next(BusType& bus) {
     auto tick = ticks_.next(bus);
-    begin_ = cost_counter();
+    if (tick) {
+      begin_ = cost_counter();
+    }
     return tick;
   }
 
