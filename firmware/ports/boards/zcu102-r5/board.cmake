@@ -16,8 +16,8 @@ striker_add_board(
   SOURCES cortex_r/startup.cpp cortex_r/no_reset.cpp
   CLOCK ttc_clock.cpp
   CAN zynqmp_can.cpp
-  WATCHDOG none
-  DEFINITIONS STRIKER_CAN_CLOCK_HZ=100000000
+  WATCHDOG swdt_watchdog.cpp
+  DEFINITIONS STRIKER_CAN_CLOCK_HZ=100000000 STRIKER_WATCHDOG_CLOCK_HZ=100000000
   QEMU_MACHINE xlnx-zcu102
   QEMU_SYSTEM qemu-system-aarch64
   QEMU_ARGUMENTS -smp 5 -m 128M -audiodev none,id=a -S -global xlnx-zynqmp.boot-cpu=rpu-cpu[0]
