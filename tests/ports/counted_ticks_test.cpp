@@ -17,7 +17,8 @@ void expect_right_ticks(std::uint32_t mask, std::uint32_t counts_a_tick, std::ui
   for (int i = 0; i < 100'000; ++i) {
     passed += step;
     const auto count = static_cast<std::uint32_t>(passed - began_at) & mask;
-    ASSERT_EQ(counted.ticks(count), static_cast<std::uint32_t>((passed - first) / counts_a_tick)) << "at count " << count;
+    ASSERT_EQ(counted.ticks(count), static_cast<std::uint32_t>((passed - first) / counts_a_tick))
+        << "at count " << count;
     ASSERT_EQ(counted.since_tick_us(count), (passed - first) % counts_a_tick * 1'000 / counts_a_tick);
     if (restarts && counted.is_due_to_restart(count)) {
       counted.restart(count);

@@ -80,26 +80,51 @@ struct Registers {
 
   [[nodiscard]] std::uint32_t read(CanRegister offset, std::uint32_t words = 0) const {
     switch (offset) {
-      case CanRegister::status: return model->status();
-      case CanRegister::events: return model->events;
-      case CanRegister::error_counters: return model->error_counters;
-      case CanRegister::receive_fifo: return read_frame(words);
-      default: ADD_FAILURE() << "nobody reads " << static_cast<int>(offset); return 0;
+      case CanRegister::status:
+        return model->status();
+      case CanRegister::events:
+        return model->events;
+      case CanRegister::error_counters:
+        return model->error_counters;
+      case CanRegister::receive_fifo:
+        return read_frame(words);
+      default:
+        ADD_FAILURE() << "nobody reads " << static_cast<int>(offset);
+        return 0;
     }
   }
 
   void write(CanRegister offset, std::uint32_t value, std::uint32_t words = 0) const {
     switch (offset) {
-      case CanRegister::reset: model->reset(value); break;
-      case CanRegister::mode: EXPECT_EQ(value, 0U); break;
-      case CanRegister::prescaler: configure(model->prescaler, value); break;
-      case CanRegister::segments: configure(model->segments, value); break;
-      case CanRegister::clear_events: model->clear(value); break;
-      case CanRegister::use_filters: configure(model->filters[0], value); break;
-      case CanRegister::first_filter: configure(model->filters.at(1 + words), value); break;
-      case CanRegister::transmit_fifo: put(model->fifo_words, value, words); break;
-      case CanRegister::transmit_urgent: put(model->urgent_words, value, words); break;
-      default: ADD_FAILURE() << "nobody writes " << static_cast<int>(offset);
+      case CanRegister::reset:
+        model->reset(value);
+        break;
+      case CanRegister::mode:
+        EXPECT_EQ(value, 0U);
+        break;
+      case CanRegister::prescaler:
+        configure(model->prescaler, value);
+        break;
+      case CanRegister::segments:
+        configure(model->segments, value);
+        break;
+      case CanRegister::clear_events:
+        model->clear(value);
+        break;
+      case CanRegister::use_filters:
+        configure(model->filters[0], value);
+        break;
+      case CanRegister::first_filter:
+        configure(model->filters.at(1 + words), value);
+        break;
+      case CanRegister::transmit_fifo:
+        put(model->fifo_words, value, words);
+        break;
+      case CanRegister::transmit_urgent:
+        put(model->urgent_words, value, words);
+        break;
+      default:
+        ADD_FAILURE() << "nobody writes " << static_cast<int>(offset);
     }
   }
 
@@ -110,7 +135,8 @@ struct Registers {
       model->popped = model->received.front();
       model->received.pop_front();
     }
-    return std::array{model->popped.id, model->popped.length, model->popped.data1, model->popped.data2}.at(words);
+    return std::array{model->popped.id, model->popped.length, model->popped.data1, model->popped.data2}.at(
+        words);
   }
 
   void configure(std::uint32_t& place, std::uint32_t value) const {
@@ -237,7 +263,9 @@ TEST_F(ZynqmpCanTest, NothingGoesOutAfterTenMillisecondsWithoutAnAcknowledge) {
 }
 
 TEST_F(ZynqmpCanTest, AtBusOffEverythingIsDroppedAndItIsToldForATickAtLeast) {
-  EXPECT_TRUE(driver.try_send(frame(0x050), tick));
+  for (const std::uint16_t id : std::vector<std::uint16_t>{0x700, 0x050, 0x100}) {
+    EXPECT_TRUE(driver.try_send(frame(id), tick));
+  }
   model.events |= can_bits::bus_off;
   can::Frame received;
   EXPECT_FALSE(driver.receive(received, tick));
@@ -249,6 +277,7 @@ TEST_F(ZynqmpCanTest, AtBusOffEverythingIsDroppedAndItIsToldForATickAtLeast) {
   EXPECT_TRUE(model.enabled);
   send_all();
   EXPECT_EQ(sent(), std::vector<std::uint16_t>{});
+  EXPECT_EQ(driver.taken_back(), 3U);
   EXPECT_EQ(driver.times_off(), 1U);
 }
 

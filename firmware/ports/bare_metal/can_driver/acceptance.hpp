@@ -74,6 +74,7 @@ template <std::size_t most, std::size_t count>
 
 // What this image's controller listens to.
 template <std::size_t most>
-inline constexpr auto controller_filters = acceptance_filters<most>(can::controller_receives<can::StrikerDrives>);
+inline constexpr auto controller_filters =
+    acceptance_filters<most>(can::controller_receives<can::StrikerDrives>);
 
 }  // namespace striker::bare_metal

@@ -18,7 +18,8 @@ namespace {
 constexpr std::uintptr_t base = 0xFF110000;
 constexpr std::uint32_t clocks_a_count = 8;
 constexpr std::uint32_t counts_a_tick = STRIKER_CLOCK_HZ / clocks_a_count / 1'000;
-static_assert(counts_a_tick * clocks_a_count * 1'000 == STRIKER_CLOCK_HZ, "a tick is a whole number of counts");
+static_assert(counts_a_tick * clocks_a_count * 1'000 == STRIKER_CLOCK_HZ,
+              "a tick is a whole number of counts");
 
 constexpr std::uint32_t prescale_by_8 = 1U << 0U | 2U << 1U;
 constexpr std::uint32_t reset_and_run = 1U << 4U;  // of the counter control: overflow mode, upwards

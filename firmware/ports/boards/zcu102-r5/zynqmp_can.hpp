@@ -140,7 +140,8 @@ class ZynqmpCan {
   void set_filters() {
     constexpr int patience = 1'000;
     registers_.write(CanRegister::use_filters, 0);
-    for (int i = 0; i < patience && (registers_.read(CanRegister::status) & can_bits::filters_busy) != 0; ++i) {
+    for (int i = 0; i < patience && (registers_.read(CanRegister::status) & can_bits::filters_busy) != 0;
+         ++i) {
     }
     for (std::uint32_t i = 0; i < filters_.size(); ++i) {
       const FilterWords words = Words::encode(filters_[i]);
