@@ -3,6 +3,9 @@
 """tools/pil from outside: the R5 gives the kicks of the run in one process, and nothing is left behind.
 Usage: pil_test.py BUILD_FOLDER [TEST...]"""
 
+import contextlib
+import io
+import json
 import os
 import re
 import signal
@@ -14,6 +17,10 @@ import unittest
 
 BUILD = sys.argv.pop(1)
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tools"))
+
+import pil_compare  # noqa: E402
+
 PIL = os.path.join(ROOT, "tools", "pil")
 INTERRUPTED = 130
 
@@ -66,6 +73,31 @@ class Pil(unittest.TestCase):
         self.assertEqual(run.returncode, INTERRUPTED, told)
         time.sleep(1)
         self.assertEqual(started_with(self.out), [])
+
+    def compared(self, line, reward):
+        """Two runs of three frames, the second with another third frame and reward; what is said, and the verdict."""
+        os.makedirs(self.out, exist_ok=True)
+        begin = "(0000000000.001000) vcan0 050#0102030405060708\n(0000000000.001000) vcan0 110#01\n"
+        for name, last, paid in (("sil", "(0000000000.002000) vcan0 050#0102030405060708", 1.5), ("pil", line, reward)):
+            with open(os.path.join(self.out, f"{name}.log"), "w", encoding="ascii") as log:
+                log.write(begin + last + "\n" if last else begin)
+            with open(os.path.join(self.out, f"{name}.json"), "w", encoding="utf-8") as file:
+                json.dump({"rows": [{"reward": paid}]}, file)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            same = pil_compare.compare(self.out, "sil", "pil")
+        return said.getvalue(), same
+
+    def test_the_first_difference_is_told(self):
+        said, same = self.compared("(0000000000.002000) vcan0 050#0102030405060708", 1.5)
+        self.assertTrue(same, said)
+        for line, reward, rows in (("(0000000000.002000) vcan0 050#0102030405060709", 1.5, {"wheel commands", "frames"}),
+                                   ("(0000000000.002001) vcan0 050#0102030405060708", 1.5, {"wheel commands", "frames"}),
+                                   ("", 1.5, {"wheel commands", "frames"}),
+                                   ("(0000000000.002000) vcan0 050#0102030405060708", 1.25, {"rewards"})):
+            said, same = self.compared(line, reward)
+            self.assertFalse(same, said)
+            self.assertEqual(set(re.findall(r"(?m)^  (\w+(?: \w+)*) .*DIFFERENT", said)), rows)
+        self.assertRegex(said, r"rewards .* DIFFERENT, first at 0: 1.5 \| 1.25")
 
     def test_wrong_use_is_told(self):
         for arguments, told in ((("--board", "mps2-an999"), "'mps2-an999' is none of"), (("--episodes", "0"), "--episodes goes from 1"),
