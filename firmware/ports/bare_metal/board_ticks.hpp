@@ -1,28 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock's ticks on a board: the first tells what ended the run before, and a step whose stack was full
-// sends nothing.
+// A source of ticks on a board, of the clock's or of SYNC's: the first tick tells what ended the run before, and a step
+// whose stack was full sends nothing.
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "firmware/can/frame_list.hpp"
 #include "firmware/core/state.hpp"
-#include "firmware/loop/clock_ticks.hpp"
 #include "firmware/loop/tick.hpp"
-#include "firmware/ports/bare_metal/board_clock.hpp"
 #include "firmware/ports/bare_metal/fault_record.hpp"
 #include "firmware/ports/bare_metal/memory.hpp"
 
 namespace striker::bare_metal {
 
+// What the bus is told of the run before.
+[[nodiscard]] inline core::Fault fault_of(const FaultRecord& record) {
+  return record.cause == FaultCause::watchdog ? core::Fault::watchdog : core::Fault::processor_exception;
+}
+
+// `Ticks`: what loop/tick_loop.hpp calls a source of ticks.
+template <class Ticks>
 class BoardTicks {
  public:
-  constexpr BoardTicks(BoardClock& clock, const loop::ClockTicksOptions& options) : ticks_(clock, options) {}
+  explicit constexpr BoardTicks(Ticks ticks) : ticks_(std::move(ticks)) {}
 
   // Before the first tick: the fault that it has.
   void tell(core::Fault fault) { untold_ = fault; }
 
-  template <loop::Bus<BoardClock::Time> BusType>
+  template <class BusType>
   std::optional<loop::Tick> next(BusType& bus) {
     auto tick = ticks_.next(bus);
     if (tick && untold_ != core::Fault::none) {
@@ -32,7 +38,7 @@ class BoardTicks {
     return tick;
   }
 
-  void end(const can::FrameList& sent) {
+  void end(can::FrameList& sent) {
     if (!stack_is_intact()) {
       end_by_fault({.cause = FaultCause::stack_overflow});
     }
@@ -40,8 +46,10 @@ class BoardTicks {
   }
   void done() { ticks_.done(); }
 
+  [[nodiscard]] Ticks& source() { return ticks_; }
+
  private:
-  loop::ClockTicks<BoardClock> ticks_;
+  Ticks ticks_;
   core::Fault untold_ = core::Fault::none;
 };
 

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/clock_ticks.hpp"
 #include "firmware/loop/tick_loop.hpp"
 #include "firmware/ports/bare_metal/board_bus.hpp"
 #include "firmware/ports/bare_metal/board_clock.hpp"
@@ -22,18 +23,14 @@ using namespace striker::bare_metal;
 // `main`: nearly all of it begins as 0, and its image would take as much flash as the memory that it fills.
 constinit BoardClock board_clock;
 constinit BoardBus bus(board_clock);
-constinit BoardTicks board_ticks(board_clock, {.frames_per_tick = most_frames_a_tick, .overrun_limit = 50});
-using Loop = loop::TickLoop<loop::BuiltInNode, BoardBus&, BoardTicks&>;
+using Ticks = BoardTicks<loop::ClockTicks<BoardClock>>;
+constinit Ticks board_ticks({board_clock, {.frames_per_tick = most_frames_a_tick, .overrun_limit = 50}});
+using Loop = loop::TickLoop<loop::BuiltInNode, BoardBus&, Ticks&>;
 alignas(Loop) constinit std::array<std::byte, sizeof(Loop)> loop_memory{};
 
 // Apart from `main`, whose stack lasts.
 [[gnu::noinline]] Loop& make_loop() {
   return *new (loop_memory.data()) Loop(loop::built_in_robot, bus, board_ticks);
-}
-
-// What the bus is told of the run before.
-core::Fault fault_of(const FaultRecord& record) {
-  return record.cause == FaultCause::watchdog ? core::Fault::watchdog : core::Fault::processor_exception;
 }
 
 }  // namespace

@@ -24,7 +24,12 @@
 #     QEMU_MACHINE mps2-an386     QEMU's name of the board; a board without one is built, but not emulated
 #     QEMU_SYSTEM program         qemu-system-arm by default
 #     QEMU_ARGUMENTS word...      what starts {image}: -kernel {image} by default
-#     QEMU_POWER_ON path)         a processor that QEMU leaves off, as a path of its object model
+#     QEMU_POWER_ON path          a processor that QEMU leaves off, as a path of its object model
+#     QEMU_CAN canbus0            the machine's property for the bus of its own CAN controller
+#     QEMU_CLOCK_HZ 133000000     what CLOCK counts on QEMU, if that is not CLOCK_HZ
+#     QEMU_DEFINITIONS NAME...)   for the sources above, on QEMU
+#
+# With -DSTRIKER_FOR_QEMU=ON the last two count: images for a board whose model differs from the hardware.
 #
 # Files are looked for in the board's folder, then in firmware/ports/bare_metal, which has what boards share. A field that is
 # missing or wrong ends the configuration: check_board.cmake says what each has to be.
@@ -46,6 +51,12 @@ function(striker_read_board board)
   set(BOARD_FOLDER "${folder}")
   set(BOARD_NAME "")
   include("${folder}/board.cmake")
+  if(STRIKER_FOR_QEMU)
+    list(APPEND BOARD_DEFINITIONS ${BOARD_QEMU_DEFINITIONS})
+    if(BOARD_QEMU_CLOCK_HZ)
+      set(BOARD_CLOCK_HZ ${BOARD_QEMU_CLOCK_HZ})
+    endif()
+  endif()
   if(NOT BOARD_NAME)
     message(FATAL_ERROR "${folder}/board.cmake: it does not call striker_add_board; "
                         "see ${CMAKE_CURRENT_FUNCTION_LIST_FILE}.")
@@ -62,8 +73,9 @@ function(striker_known_boards variable)
   set(${variable} ${files} PARENT_SCOPE)
 endfunction()
 
-set(striker_board_words NAME CPU LABEL FLASH_ORIGIN FLASH RAM_ORIGIN RAM IMAGE_FLASH IMAGE_RAM CLOCK_HZ INTERRUPTS QEMU_MACHINE QEMU_SYSTEM QEMU_POWER_ON)
-set(striker_board_lists HANDLERS SOURCES CLOCK CAN UART WATCHDOG DEFINITIONS QEMU_ARGUMENTS)
+set(striker_board_words NAME CPU LABEL FLASH_ORIGIN FLASH RAM_ORIGIN RAM IMAGE_FLASH IMAGE_RAM CLOCK_HZ INTERRUPTS QEMU_MACHINE QEMU_SYSTEM QEMU_POWER_ON
+    QEMU_CAN QEMU_CLOCK_HZ)
+set(striker_board_lists HANDLERS SOURCES CLOCK CAN UART WATCHDOG DEFINITIONS QEMU_ARGUMENTS QEMU_DEFINITIONS)
 
 function(striker_add_board)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "" "${striker_board_words}" "${striker_board_lists}")

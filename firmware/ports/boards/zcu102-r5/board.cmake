@@ -11,15 +11,20 @@ striker_add_board(
   FLASH 192K
   RAM_ORIGIN 0xFFFF8000
   RAM 31K
+  IMAGE_FLASH 52K
+  IMAGE_RAM 4608
   CLOCK_HZ 100000000
   INTERRUPTS 0
   SOURCES cortex_r/startup.cpp cortex_r/no_reset.cpp
   CLOCK ttc_clock.cpp
-  CAN slcan
-  UART cadence_uart.cpp
-  WATCHDOG none
+  CAN zynqmp_can.cpp
+  WATCHDOG swdt_watchdog.cpp
+  DEFINITIONS STRIKER_CAN_CLOCK_HZ=100000000 STRIKER_WATCHDOG_CLOCK_HZ=100000000
   QEMU_MACHINE xlnx-zcu102
   QEMU_SYSTEM qemu-system-aarch64
   QEMU_ARGUMENTS -smp 5 -m 128M -audiodev none,id=a -S -global xlnx-zynqmp.boot-cpu=rpu-cpu[0]
                  -device loader,file={image},cpu-num=4
-  QEMU_POWER_ON /machine/soc/rpu-cluster/rpu-cpu[0])
+  QEMU_POWER_ON /machine/soc/rpu-cluster/rpu-cpu[0]
+  QEMU_CAN canbus0
+  QEMU_CLOCK_HZ 133000000
+  QEMU_DEFINITIONS STRIKER_CAN_WORDS_OF_QEMU=1)
