@@ -6,6 +6,7 @@
 // Soccer's forward. `striker-robot check FILE` says what follows from a file, and what is wrong with one.
 #pragma once
 
+#include "firmware/can/drives/drive_wiring.hpp"
 #include "firmware/core/robot_profile.hpp"
 #include "firmware/core/robot_ranges.hpp"
 
@@ -15,6 +16,7 @@
 namespace striker::loop {
 
 inline constexpr core::RobotDescription built_in_description = core::forward;
+inline constexpr can::DriveWiring built_in_wiring = {};
 
 }  // namespace striker::loop
 #endif
