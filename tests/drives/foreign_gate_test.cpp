@@ -63,17 +63,16 @@ class ForeignGate : public testing::Test {
   using Says = Told<Drives>;
   CommandGate<Drives> gate{{.torque_mNm = 400, .slew_mNm = 300, .set_point_mm_s = 2000}};
   std::uint32_t tick = 1000;
-  bool sends_speeds = true;
+  bool sends_drives = true;
   bool sends_pictures = true;
-  bool is_enabled = true;
 
   void feed(std::uint32_t ticks = 1) {
     for (std::uint32_t i = 0; i < ticks; ++i) {
       for (const std::size_t wheel : {can::left_wheel, can::right_wheel}) {
-        if (sends_speeds) {
+        if (sends_drives) {
           receive(Says::speed(wheel));
+          receive(Says::state(wheel, true));
         }
-        receive(Says::state(wheel, is_enabled));
       }
       if (sends_pictures) {
         receive(can::send(can::VisionPose{}, pose_));
@@ -144,14 +143,10 @@ TYPED_TEST(ForeignGate, LimitsHoldForEachWheelByItself) {
 }
 
 TYPED_TEST(ForeignGate, OldSpeedsBlock) {
-  if (std::is_same_v<TypeParam, can::Cia402Drives<sil::cia402_wiring>>) {
-    GTEST_SKIP() << "its state comes with the speed";
-  }
   this->drive();
-  this->sends_speeds = false;
-  this->feed(wheels_limit_ticks);
+  this->sends_drives = false;
+  this->feed(wheels_limit_ticks - 1);
   EXPECT_EQ(this->passed(can::left_wheel, 50), 50);
-  this->feed();
   this->feed();
   EXPECT_EQ(this->passed(can::left_wheel, 50), 0);
 }
@@ -163,7 +158,7 @@ TYPED_TEST(ForeignGate, OneDriveThatIsNotEnabledBlocks) {
   EXPECT_TRUE(this->gate.has_blocked());
 }
 
-TYPED_TEST(ForeignGate, AStopAndLostPicturesBlock) {
+TYPED_TEST(ForeignGate, LostPicturesBlock) {
   this->drive();
   this->sends_pictures = false;
   this->feed(vision_limit_ticks + 2);
