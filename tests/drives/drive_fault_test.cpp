@@ -41,6 +41,7 @@ class Watch final : public Observer {
     act_(snapshot.tick);
   }
 
+  std::uint32_t active_tick = 0;  // the first
   std::uint32_t fault_tick = 0;
   core::Fault fault = core::Fault::none;
   std::uint32_t moved_ticks = 0;
@@ -51,6 +52,7 @@ class Watch final : public Observer {
     can::FaultReport report;
     if (can::is<can::Status>(frame) && can::receive(frame, status) == can::Verdict::accepted) {
       is_active_ = static_cast<core::State>(status.state) == core::State::active;
+      active_tick = is_active_ && active_tick == 0 ? tick : active_tick;
     } else if (can::is<can::FaultReport>(frame) && can::receive(frame, report) == can::Verdict::accepted &&
                fault == core::Fault::none) {
       fault = static_cast<core::Fault>(report.code);
@@ -106,6 +108,19 @@ TEST_P(ForeignDrivesPlay, DriveEveryEpisodeAndRestBetween) {
   EXPECT_TRUE(rig.undriven.empty());
   EXPECT_EQ(watch.fault, core::Fault::none) << core::name_of(watch.fault);
   EXPECT_GT(watch.moved_ticks, 1000U);
+}
+
+TEST_P(ForeignDrivesPlay, OneThatDoesNotComeUpIsAFault) {
+  for (const std::size_t wheel : {can::left_wheel, can::right_wheel}) {
+    DriveRig rig(GetParam());
+    auto& drives = dynamic_cast<ForeignDrives&>(*rig.drives);
+    Watch watch(GetParam(), [&](std::uint32_t) { drives.fail(wheel, DriveFailure::disarmed); });
+    rig.play({.episodes = 1}, {&watch}, [&] { return watch.fault_tick != 0; });
+    EXPECT_GT(watch.active_tick, 0U);
+    EXPECT_LE(watch.fault_tick, watch.active_tick + 41);
+    EXPECT_EQ(watch.fault, core::Fault::drives_cut) << core::name_of(watch.fault);
+    EXPECT_EQ(watch.moved_ticks, 0U) << "the other one alone does not drive";
+  }
 }
 
 // An error before the kick is cleared as the operator arms, and one of the kick before does not spoil the next.
