@@ -32,8 +32,8 @@ static_assert(identifier_base >= 0 && identifier_base % 8 == 0 && identifier_bas
               "STRIKER CAN: identifier_base must be a multiple of 8 from 0 to 1496 (0x5D8)");
 
 [[nodiscard]] constexpr std::uint16_t moved(std::uint16_t identifier) {
-  return static_cast<std::uint16_t>(
-      identifier < first_identifier_that_stays ? identifier + identifier_base : identifier);
+  return static_cast<std::uint16_t>(identifier < first_identifier_that_stays ? identifier + identifier_base
+                                                                             : identifier);
 }
 
 // digits * 10^exponent: scales stay exact without floating point.

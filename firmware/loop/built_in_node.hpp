@@ -5,7 +5,6 @@
 
 #include "firmware/core/controller.hpp"
 #include "firmware/core/pilot.hpp"
-#include "firmware/loop/built_in_drives.hpp"
 #include "firmware/loop/built_in_robot.hpp"
 #include "firmware/loop/controller_node.hpp"
 #include "firmware/policy/built_in.hpp"

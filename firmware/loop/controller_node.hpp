@@ -76,9 +76,10 @@ class ControllerNode {
   static constexpr std::size_t end_of_tick = 1;  // lockstep adds it
   static_assert(can::Reporter::most_frames + can::most_drive_frames<Drives>() + end_of_tick <=
                 can::FrameList::capacity);
-  static_assert(can::shares_no_identifier<Drives>(),
-                "STRIKER DRIVES: a node's identifier is one of Striker's own: choose other nodes, or move Striker's "
-                "with identifier_base in the robot's description");
+  static_assert(
+      can::shares_no_identifier<Drives>(),
+      "STRIKER DRIVES: a node's identifier is one of Striker's own: choose other nodes, or move Striker's "
+      "with identifier_base in the robot's description");
 
   static constexpr std::uint32_t greatest_count = 255;
 

@@ -17,7 +17,7 @@
 #include "firmware/host/can/interface_watch.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
-#include "firmware/loop/built_in_drives.hpp"
+#include "firmware/loop/built_in_robot.hpp"
 #include "firmware/policy/built_in.hpp"
 #include "firmware/ports/linux/bench_peer.hpp"
 #include "firmware/ports/linux/fault_announcer.hpp"

@@ -31,11 +31,13 @@ class DriveWatch {
   }
 
   [[nodiscard]] bool fresh(std::uint32_t tick, std::uint32_t limit_ticks) const {
-    return both([&](const Wheel& wheel) { return wheel.has_speed && tick - wheel.speed_tick <= limit_ticks; });
+    return both(
+        [&](const Wheel& wheel) { return wheel.has_speed && tick - wheel.speed_tick <= limit_ticks; });
   }
   // Asked where torque is wanted.
   [[nodiscard]] bool enabled(std::uint32_t tick, std::uint32_t limit_ticks) const {
-    return both([&](const Wheel& wheel) { return wheel.is_enabled && tick - wheel.told_tick <= limit_ticks; });
+    return both(
+        [&](const Wheel& wheel) { return wheel.is_enabled && tick - wheel.told_tick <= limit_ticks; });
   }
 
  private:

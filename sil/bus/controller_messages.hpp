@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "firmware/can/messages.hpp"
-#include "firmware/loop/built_in_drives.hpp"
+#include "firmware/loop/built_in_robot.hpp"
 
 namespace striker::sil {
 

@@ -105,7 +105,8 @@ void define(CLI::App& kick, KickOptions& options) {
                           "--bus can:IFACE in lockstep (without --realtime)");
     require_robot_in_process(kick, options.bus);
     if (has_foreign_drives && options.plant == "servo") {
-      throw CLI::ValidationError("--plant", "servo takes set-points, which this build's drives are not told: use drive");
+      throw CLI::ValidationError("--plant",
+                                 "servo takes set-points, which this build's drives are not told: use drive");
     }
     host::require_meaning(kick, options.in_process(), {"--decisions"},
                           "--bus inproc: it reads the controller's own state");

@@ -59,10 +59,10 @@ core::RobotDescription described_robot(const std::string& file) {
   }
   const auto [robot, wiring] = read_robot_and_drives(file);
   if (!is_wired_as_built(wiring)) {
-    throw std::runtime_error(
-        fmt::format("{}: its drives, their wiring or identifier_base are not those that this program is built for: "
-                    "configure with -DSTRIKER_ROBOT={}",
-                    file, file));
+    throw std::runtime_error(fmt::format(
+        "{}: its drives, their wiring or identifier_base are not those that this program is built for: "
+        "configure with -DSTRIKER_ROBOT={}",
+        file, file));
   }
   if (!loop::BuiltInPilot::suits(core::profile_of(robot))) {
     throw std::runtime_error(fmt::format(

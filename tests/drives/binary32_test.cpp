@@ -33,11 +33,13 @@ TEST(Binary32, IsScaledAsTheHostScalesIt) {
 
 TEST(Binary32, AtEveryEdge) {
   for (std::uint32_t exponent = 0; exponent < 256; ++exponent) {
-    for (const std::uint32_t mantissa : {0x0U, 0x1U, 0x2U, 0x3F'FFFFU, 0x40'0000U, 0x40'0001U, 0x7F'FFFEU, 0x7F'FFFFU}) {
+    for (const std::uint32_t mantissa :
+         {0x0U, 0x1U, 0x2U, 0x3F'FFFFU, 0x40'0000U, 0x40'0001U, 0x7F'FFFEU, 0x7F'FFFFU}) {
       for (const std::uint32_t sign : {0U, 1U}) {
         const std::uint32_t bits = sign << 31U | exponent << 23U | mantissa;
         for (const std::uint32_t factor : {0U, 1U, 2U, 3U, 1000U, 251'327U}) {
-          ASSERT_EQ(scaled_binary32(bits, factor), by_host(bits, factor)) << std::hex << bits << " " << factor;
+          ASSERT_EQ(scaled_binary32(bits, factor), by_host(bits, factor))
+              << std::hex << bits << " " << factor;
         }
       }
     }
@@ -53,7 +55,8 @@ TEST(Binary32, WhatIsNoNumberIsNone) {
 
 // Both are floats exactly up to 2^24, and the host's division is rounded once.
 TEST(Binary32, OfARatioIsTheHostsQuotient) {
-  for (const std::uint32_t denominator : {1U, 3U, 10U, 100U, 1000U, 4999U, 100'000U, 16'777'213U, 16'777'216U}) {
+  for (const std::uint32_t denominator :
+       {1U, 3U, 10U, 100U, 1000U, 4999U, 100'000U, 16'777'213U, 16'777'216U}) {
     for (std::int32_t numerator = -200'000; numerator <= 200'000; ++numerator) {
       ASSERT_EQ(binary32_of_ratio(numerator, denominator),
                 std::bit_cast<std::uint32_t>(static_cast<float>(numerator) / static_cast<float>(denominator)))
@@ -71,8 +74,10 @@ TEST(Binary32, OfARatioIsTheHostsQuotient) {
 TEST(Binary32, ATorqueComesBackAsItWent) {
   for (std::uint32_t gear_percent = 10; gear_percent <= 10'000; ++gear_percent) {
     for (std::int32_t torque_mNm = 0; torque_mNm <= 2'000; torque_mNm += gear_percent % 50 == 0 ? 1 : 37) {
-      ASSERT_EQ(scaled_binary32(binary32_of_ratio(torque_mNm, 10 * gear_percent), 10 * gear_percent), torque_mNm);
-      ASSERT_EQ(scaled_binary32(binary32_of_ratio(-torque_mNm, 10 * gear_percent), 10 * gear_percent), -torque_mNm);
+      ASSERT_EQ(scaled_binary32(binary32_of_ratio(torque_mNm, 10 * gear_percent), 10 * gear_percent),
+                torque_mNm);
+      ASSERT_EQ(scaled_binary32(binary32_of_ratio(-torque_mNm, 10 * gear_percent), 10 * gear_percent),
+                -torque_mNm);
     }
   }
 }

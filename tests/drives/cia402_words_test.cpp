@@ -21,7 +21,7 @@ TEST(StatusWord, IsReadAsTheProfileHasIt) {
     } else if (disabled && !fault && !ready && !on && !enabled) {
       state = State::switch_on_disabled;
     } else if (!disabled && !fault && no_quick_stop && ready) {
-      state = !on && !enabled ? State::ready_to_switch_on
+      state = !on && !enabled  ? State::ready_to_switch_on
               : on && !enabled ? State::switched_on
               : on             ? State::enabled
                                : State::other;

@@ -20,13 +20,15 @@ constexpr std::uint32_t failing_tick = 700;     // the first episode's, some 400
 // From the frame's bytes alone.
 bool moves(can::DriveKind kind, const can::Frame& frame) {
   if (kind == can::DriveKind::odrive) {
-    return (frame.id == 0x00E || frame.id == 0x02E) && (frame.data[0] | frame.data[1] | frame.data[2] | frame.data[3]) != 0;
+    return (frame.id == 0x00E || frame.id == 0x02E) &&
+           (frame.data[0] | frame.data[1] | frame.data[2] | frame.data[3]) != 0;
   }
   return (frame.id == 0x201 || frame.id == 0x202) && (frame.data[2] | frame.data[3]) != 0;
 }
 bool enables(can::DriveKind kind, const can::Frame& frame) {
-  return kind == can::DriveKind::odrive ? (frame.id == 0x007 || frame.id == 0x027) && frame.data[0] == 8
-                                        : (frame.id == 0x201 || frame.id == 0x202) && (frame.data[0] & 8U) != 0;
+  return kind == can::DriveKind::odrive
+             ? (frame.id == 0x007 || frame.id == 0x027) && frame.data[0] == 8
+             : (frame.id == 0x201 || frame.id == 0x202) && (frame.data[0] & 8U) != 0;
 }
 
 // What the bus tells, tick by tick, and what is done to the drives in one of them.
@@ -88,7 +90,8 @@ TEST_P(ForeignDriveFails, IsAFaultWithinThreeOfItsPeriods) {
     EXPECT_GT(watch.moved_ticks, 100U) << "it was driving";
     EXPECT_GT(watch.fault_tick, at) << "phase " << phase << core::name_of(watch.fault);
     EXPECT_LE(watch.fault_tick, at + 3 * own_period_ticks) << "phase " << phase;
-    EXPECT_EQ(watch.fault, failure == DriveFailure::gone ? core::Fault::wheel_state_lost : core::Fault::drives_cut)
+    EXPECT_EQ(watch.fault,
+              failure == DriveFailure::gone ? core::Fault::wheel_state_lost : core::Fault::drives_cut)
         << core::name_of(watch.fault);
   }
 }

@@ -110,7 +110,8 @@ class ForeignGate : public testing::Test {
   can::SendCounter pose_, ball_, challenge_, mode_;
 };
 
-using AllForeign = testing::Types<can::OdriveDrives<sil::odrive_wiring>, can::Cia402Drives<sil::cia402_wiring>>;
+using AllForeign =
+    testing::Types<can::OdriveDrives<sil::odrive_wiring>, can::Cia402Drives<sil::cia402_wiring>>;
 TYPED_TEST_SUITE(ForeignGate, AllForeign);
 
 TYPED_TEST(ForeignGate, NothingMovesOrIsEnabledUnlessArmed) {
@@ -173,7 +174,8 @@ TYPED_TEST(ForeignGate, WhatIsNoFrameOfItsDrivesDoesNotLeave) {
       const can::Frame frame = {.id = id, .length = length, .data = {0x02, 0xFF, 0xC0, 0x7F, 0x01}};
       const bool is_own = can::any_layout([&](const auto& message) { return message.info.id == id; });
       if (!is_own && may_send<TypeParam>(frame)) {
-        EXPECT_TRUE(std::find(TypeParam::sends.begin(), TypeParam::sends.end(), id) != TypeParam::sends.end());
+        EXPECT_TRUE(std::find(TypeParam::sends.begin(), TypeParam::sends.end(), id) !=
+                    TypeParam::sends.end());
         EXPECT_FALSE(id == 0x00E && length != 4) << "Set_Input_Torque";
         EXPECT_FALSE(id == 0x080 && length != 0) << "SYNC";
         EXPECT_FALSE(id == 0x000) << "NMT: start alone, and of its own nodes";

@@ -16,7 +16,8 @@ template <template <DriveWiring> class Drives, std::int32_t... node>
 std::set<int> colliding(std::integer_sequence<std::int32_t, node...>) {
   constexpr std::int32_t fellow = 48;
   std::set<int> found;
-  ((shares_no_identifier<Drives<DriveWiring{.left_node = node + 1, .right_node = node + 1 == fellow ? 49 : fellow}>>()
+  ((shares_no_identifier<
+        Drives<DriveWiring{.left_node = node + 1, .right_node = node + 1 == fellow ? 49 : fellow}>>()
         ? void()
         : void(found.insert(node + 1))),
    ...);

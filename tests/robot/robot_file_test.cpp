@@ -79,9 +79,10 @@ TEST(RobotFile, WhatIsWrongIsNamedWithItsPlace) {
       {sound + "camera_rate_Hz = 59.94\n", "line 9: camera_rate_Hz must be a whole number"},
       {sound + "drives = \"moteus\"\n",
        "line 9: drives = \"moteus\" must be one of \"striker\", \"odrive\", \"cia402\""},
-      {sound + "drives = 1\n", "line 9: drives must be one of "},
+      {sound + "drives = 1\n", "line 9: 'drives = 1' is no name of drives"},
       {sound + "drives = 'odrive'\n", "line 9: 'drives = 'odrive'' is no name of drives"},
-      {sound + "drive_left_node = 128\n", "line 9: drive_left_node = 128 must be a whole number from 0 to 127"},
+      {sound + "drive_left_node = 128\n",
+       "line 9: drive_left_node = 128 must be a whole number from 0 to 127"},
       {sound + "drive_left_node = 2\n", "drive_left_node and drive_right_node are both 2"},
       {sound + "identifier_base = 4\n", "identifier_base = 4 must be a multiple of 8"},
       {"= 3", "line 1: "}};

@@ -51,7 +51,8 @@ namespace striker::can {
     return 0;
   }
   const std::uint32_t sign = numerator < 0 ? 0x8000'0000U : 0;
-  std::uint64_t rest = numerator < 0 ? 0U - static_cast<std::uint32_t>(numerator) : static_cast<std::uint32_t>(numerator);
+  std::uint64_t rest =
+      numerator < 0 ? 0U - static_cast<std::uint32_t>(numerator) : static_cast<std::uint32_t>(numerator);
   std::uint64_t unit = denominator;
   std::int32_t exponent = 127;
   for (; rest >= 2 * unit; ++exponent) {

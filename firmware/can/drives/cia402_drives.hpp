@@ -46,7 +46,14 @@ inline constexpr std::uint8_t nmt_start = 1;
 inline constexpr std::uint8_t operational = 5;
 inline constexpr std::uint8_t cyclic_synchronous_torque = 10;
 
-enum class State : std::uint8_t { other, fault, switch_on_disabled, ready_to_switch_on, switched_on, enabled };
+enum class State : std::uint8_t {
+  other,
+  fault,
+  switch_on_disabled,
+  ready_to_switch_on,
+  switched_on,
+  enabled
+};
 
 [[nodiscard]] constexpr State state_of(std::uint32_t status_word) {
   switch (status_word & 0x4FU) {
@@ -76,8 +83,8 @@ inline constexpr std::uint16_t fault_reset = 0x80;  // on its rising edge
 
 // The control word that leads one state on.
 [[nodiscard]] constexpr std::uint16_t control_word_after(State state) {
-  return state == State::fault                ? fault_reset
-         : state == State::ready_to_switch_on ? switch_on
+  return state == State::fault                                    ? fault_reset
+         : state == State::ready_to_switch_on                     ? switch_on
          : state == State::switched_on || state == State::enabled ? enable_operation
                                                                   : shutdown;
 }
@@ -87,7 +94,8 @@ inline constexpr std::uint16_t fault_reset = 0x80;  // on its rising edge
 template <DriveWiring wiring>
 class Cia402Drives {
  public:
-  static_assert(wiring.left_node >= 1 && wiring.right_node >= 1 && wiring.left_node <= 127 && wiring.right_node <= 127,
+  static_assert(wiring.left_node >= 1 && wiring.right_node >= 1 && wiring.left_node <= 127 &&
+                    wiring.right_node <= 127,
                 "STRIKER DRIVES: a CANopen node is 1 to 127");
 
   static constexpr std::uint16_t id(std::size_t wheel, std::uint16_t function) {
@@ -107,7 +115,8 @@ class Cia402Drives {
     const bool is_theirs = static_cast<std::int32_t>(node) == wiring.left_node ||
                            static_cast<std::int32_t>(node) == wiring.right_node;
     return identifier == cia402::nmt || identifier == cia402::sync || identifier == 0x100 ||
-           identifier == 0x7E4 || identifier == 0x7E5 || (is_theirs && identifier >= 0x080 && identifier < 0x780);
+           identifier == 0x7E4 || identifier == 0x7E5 ||
+           (is_theirs && identifier >= 0x080 && identifier < 0x780);
   }
   [[nodiscard]] static bool owns(const Frame& frame) { return is_among(receives, frame.id); }
 
@@ -215,9 +224,7 @@ class Cia402Drives {
     return (identifier & 0x7FU) == static_cast<std::uint32_t>(wiring.left_node) ? left_wheel : right_wheel;
   }
   static constexpr bool is_tpdo(const Frame& frame) { return (frame.id & 0x780U) == cia402::tpdo1; }
-  static constexpr bool is_heartbeat(const Frame& frame) {
-    return (frame.id & 0x780U) == cia402::heartbeat;
-  }
+  static constexpr bool is_heartbeat(const Frame& frame) { return (frame.id & 0x780U) == cia402::heartbeat; }
   static constexpr bool is_command(const Frame& frame) {
     return frame.id == id(left_wheel, cia402::rpdo1) || frame.id == id(right_wheel, cia402::rpdo1);
   }
@@ -229,7 +236,8 @@ class Cia402Drives {
   }
   static std::int32_t torque_mNm(std::int32_t per_mille) {
     const std::int64_t product = std::int64_t{per_mille} * rated_at_wheel;
-    return static_cast<std::int32_t>((product + (product < 0 ? 1 - hundredths : hundredths - 1)) / hundredths);
+    return static_cast<std::int32_t>((product + (product < 0 ? 1 - hundredths : hundredths - 1)) /
+                                     hundredths);
   }
 
   static Frame command_frame(std::size_t wheel, std::uint32_t control_word, std::int32_t torque_mNm) {
@@ -248,7 +256,8 @@ class Cia402Drives {
 
   static std::optional<std::int32_t> speed_of(std::size_t wheel, std::uint32_t counts_per_s) {
     constexpr std::int64_t um_q16 =
-        (std::int64_t{wiring.rim_um_per_turn()} * 65'536 + wiring.counts_per_turn / 2) / wiring.counts_per_turn;
+        (std::int64_t{wiring.rim_um_per_turn()} * 65'536 + wiring.counts_per_turn / 2) /
+        wiring.counts_per_turn;
     const std::int64_t speed_um_s = (static_cast<std::int32_t>(counts_per_s) * um_q16 + 32'768) >> 16;
     constexpr std::int64_t greatest = 1'000 * core::greatest_measured_mm_s;
     return speed_um_s < -greatest || speed_um_s > greatest

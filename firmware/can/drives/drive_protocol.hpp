@@ -79,19 +79,19 @@ concept DriveProtocol = requires(Drives& drives, const Frame& frame, std::uint32
 };
 
 template <class Drives>
-concept ForeignDrives =
-    DriveProtocol<Drives> && requires(Drives& drives, const Frame& frame, Frame& changed, std::uint32_t tick,
-                                      bool wanted, std::uint16_t identifier) {
-      { Drives::claims(identifier) } -> std::same_as<bool>;
-      { Drives::most_frames } -> std::convertible_to<std::size_t>;
-      { drives.judge(tick) } -> std::same_as<core::Faults>;
-      { drives.enable(wanted) } -> std::same_as<void>;
-      { Drives::news_of(frame) } -> std::same_as<DriveNews>;
-      { Drives::may_send(frame) } -> std::same_as<bool>;
-      { Drives::wheel_of(frame) } -> std::same_as<std::optional<std::size_t>>;
-      { Drives::enables(frame) } -> std::same_as<bool>;
-      { Drives::disable(changed) } -> std::same_as<void>;
-    };
+concept ForeignDrives = DriveProtocol<Drives> &&
+    requires(Drives& drives, const Frame& frame, Frame& changed, std::uint32_t tick, bool wanted,
+             std::uint16_t identifier) {
+  { Drives::claims(identifier) } -> std::same_as<bool>;
+  { Drives::most_frames } -> std::convertible_to<std::size_t>;
+  { drives.judge(tick) } -> std::same_as<core::Faults>;
+  { drives.enable(wanted) } -> std::same_as<void>;
+  { Drives::news_of(frame) } -> std::same_as<DriveNews>;
+  { Drives::may_send(frame) } -> std::same_as<bool>;
+  { Drives::wheel_of(frame) } -> std::same_as<std::optional<std::size_t>>;
+  { Drives::enables(frame) } -> std::same_as<bool>;
+  { Drives::disable(changed) } -> std::same_as<void>;
+};
 
 template <class Drives>
 concept ProtectedDrives = DriveProtocol<Drives> && requires(const Frame& frame) {

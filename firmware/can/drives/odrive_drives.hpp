@@ -51,9 +51,7 @@ inline constexpr std::uint32_t passthrough = 1;     // input mode
 
 // What the manual gives each frame.
 [[nodiscard]] constexpr std::uint8_t length_of(std::uint16_t command) {
-  return command == clear_errors                                     ? 1
-         : command == set_axis_state || command == set_input_torque ? 4
-                                                                     : 8;
+  return command == clear_errors ? 1 : command == set_axis_state || command == set_input_torque ? 4 : 8;
 }
 
 }  // namespace odrive
@@ -72,10 +70,12 @@ class OdriveDrives {
       id(left_wheel, odrive::set_axis_state),      id(right_wheel, odrive::set_axis_state),
       id(left_wheel, odrive::set_controller_mode), id(right_wheel, odrive::set_controller_mode),
       id(left_wheel, odrive::clear_errors),        id(right_wheel, odrive::clear_errors)};
-  static constexpr std::array<std::uint16_t, 6> receives = {
-      id(left_wheel, odrive::get_encoder_estimates), id(right_wheel, odrive::get_encoder_estimates),
-      id(left_wheel, odrive::heartbeat),             id(right_wheel, odrive::heartbeat),
-      id(left_wheel, odrive::get_error),             id(right_wheel, odrive::get_error)};
+  static constexpr std::array<std::uint16_t, 6> receives = {id(left_wheel, odrive::get_encoder_estimates),
+                                                            id(right_wheel, odrive::get_encoder_estimates),
+                                                            id(left_wheel, odrive::heartbeat),
+                                                            id(right_wheel, odrive::heartbeat),
+                                                            id(left_wheel, odrive::get_error),
+                                                            id(right_wheel, odrive::get_error)};
   static constexpr std::size_t most_frames = 3;
 
   [[nodiscard]] static constexpr bool claims(std::uint16_t identifier) {
@@ -162,8 +162,7 @@ class OdriveDrives {
   static void recode(Frame& frame, const core::DriveCommand& command) {
     if (is_torque(frame)) {
       const std::size_t wheel = wheel_at(frame.id);
-      frame = torque_frame(wheel,
-                           wheel == left_wheel ? command.torque.left_mNm : command.torque.right_mNm);
+      frame = torque_frame(wheel, wheel == left_wheel ? command.torque.left_mNm : command.torque.right_mNm);
     }
   }
   [[nodiscard]] static bool enables(const Frame& frame) {
@@ -184,7 +183,8 @@ class OdriveDrives {
     return (frame.id & 0x1FU) == odrive::set_input_torque;
   }
 
-  static Frame frame_of(std::size_t wheel, std::uint16_t command, std::uint32_t first, std::uint32_t second = 0) {
+  static Frame frame_of(std::size_t wheel, std::uint16_t command, std::uint32_t first,
+                        std::uint32_t second = 0) {
     Frame frame = {.id = id(wheel, command), .length = odrive::length_of(command)};
     put_little_endian_32(frame, 0, first);
     put_little_endian_32(frame, 4, second);

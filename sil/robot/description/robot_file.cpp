@@ -95,8 +95,9 @@ DriveWiring wiring_of(const toml::table& table, const RobotDescription& robot, c
   }
   wiring.wheel_radius_um = robot.wheel_radius_um;
   if (wiring.left_node == wiring.right_node) {
-    fail(file, fmt::format("drive_left_node and drive_right_node are both {}: each drive has a node of its own",
-                           wiring.left_node));
+    fail(file,
+         fmt::format("drive_left_node and drive_right_node are both {}: each drive has a node of its own",
+                     wiring.left_node));
   }
   if (wiring.identifier_base % 8 != 0) {
     fail(file, fmt::format("identifier_base = {} must be a multiple of 8", wiring.identifier_base));
@@ -119,8 +120,10 @@ void refuse_fancy(const toml::table& table, std::string_view text, const std::st
     const std::string_view number = line.substr(std::min<std::size_t>(begin.column - 1, line.size()));
     const bool quoted = line.substr(0, begin.column - 1).find_first_of("\"'") != std::string_view::npos;
     if (key.str() == drives_key) {
-      if (line.substr(0, begin.column - 1).find_first_of("\"'") != std::string_view::npos || !number.starts_with('"')) {
-        fail(file, fmt::format("line {}: '{}' is no name of drives, as in drives = \"odrive\"", begin.line, line));
+      if (line.substr(0, begin.column - 1).find_first_of("\"'") != std::string_view::npos ||
+          !number.starts_with('"')) {
+        fail(file,
+             fmt::format("line {}: '{}' is no name of drives, as in drives = \"odrive\"", begin.line, line));
       }
       continue;
     }

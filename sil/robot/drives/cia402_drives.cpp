@@ -66,7 +66,8 @@ void Cia402Drives::order() {
     const bool follows = node.state == State::operation_enabled && node.is_operational && !node.is_gone &&
                          node.mode == cyclic_synchronous_torque;
     const double rated_Nm = wiring_.rated_torque_mNm * 1e-3 * wiring_.gear_percent / 100.0;
-    orders_[wheel] = {.torque_Nm = follows ? wiring_.sign(wheel) * node.acting_per_mille * 1e-3 * rated_Nm : 0.0};
+    orders_[wheel] = {.torque_Nm =
+                          follows ? wiring_.sign(wheel) * node.acting_per_mille * 1e-3 * rated_Nm : 0.0};
   }
 }
 
@@ -107,7 +108,8 @@ void Cia402Drives::report(const RimSpeeds& speeds, std::uint32_t tick, std::vect
     // For the next SYNC.
     const double rim_m_s = wheel == can::left_wheel ? speeds.left_m_s : speeds.right_m_s;
     const double turns_s = rim_m_s / around_m * wiring_.gear_percent / 100.0;
-    node.counts_per_s = wiring_.sign(wheel) * static_cast<std::int32_t>(std::lround(turns_s * wiring_.counts_per_turn));
+    node.counts_per_s =
+        wiring_.sign(wheel) * static_cast<std::int32_t>(std::lround(turns_s * wiring_.counts_per_turn));
   }
   order();
 }

@@ -85,9 +85,9 @@ bool OdriveDrives::cut(std::uint32_t) const {
 
 can::Frame OdriveDrives::frame_of(std::size_t wheel, std::uint32_t command, std::uint32_t first,
                                   std::uint32_t second) const {
-  can::Frame frame = {.id = static_cast<std::uint16_t>(
-                          static_cast<std::uint32_t>(wiring_.node(wheel)) << 5U | command),
-                      .length = 8};
+  can::Frame frame = {
+      .id = static_cast<std::uint16_t>(static_cast<std::uint32_t>(wiring_.node(wheel)) << 5U | command),
+      .length = 8};
   std::memcpy(&frame.data[0], &first, sizeof first);
   std::memcpy(&frame.data[4], &second, sizeof second);
   return frame;
