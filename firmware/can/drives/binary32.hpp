@@ -5,7 +5,7 @@
 //   scaled_binary32(0x3FC00000, 1000)   // 1.5 * 1000: 1500
 //   binary32_of_ratio(3, 2)             // 0x3FC00000
 //
-// Cost: a multiplication of 64 bits and a shift; 24 subtractions of 64 bits and as many shifts more as the ratio is far
+// Both are called, not inlined: an image holds them once. Cost: a multiplication of 64 bits and a shift; 24 subtractions of 64 bits and as many shifts more as the ratio is far
 // from 1. No division.
 #pragma once
 
@@ -17,8 +17,8 @@ namespace striker::can {
 
 // value * factor to the nearest integer, halves away from zero. Nothing for an infinity, for what is no number (NaN), and
 // for a result beyond +-(2^31 - 1). Subnormal numbers and -0 are taken as what they are.
-[[nodiscard]] constexpr std::optional<std::int32_t> scaled_binary32(std::uint32_t bits,
-                                                                    std::uint32_t factor) {
+[[nodiscard, gnu::noinline]] constexpr std::optional<std::int32_t> scaled_binary32(std::uint32_t bits,
+                                                                                   std::uint32_t factor) {
   constexpr std::uint64_t greatest = std::numeric_limits<std::int32_t>::max();
   const std::uint32_t exponent = bits >> 23U & 0xFFU;
   if (exponent == 0xFF) {
@@ -46,7 +46,8 @@ namespace striker::can {
 }
 
 // The binary32 that is nearest to numerator / denominator, halves to even. Denominators from 1 to 2^31; 0 gives +0.
-[[nodiscard]] constexpr std::uint32_t binary32_of_ratio(std::int32_t numerator, std::uint32_t denominator) {
+[[nodiscard, gnu::noinline]] constexpr std::uint32_t binary32_of_ratio(std::int32_t numerator,
+                                                                       std::uint32_t denominator) {
   if (numerator == 0) {
     return 0;
   }

@@ -102,8 +102,8 @@ class OdriveDrives {
     put_step(frames);
   }
 
-  // For the command gate.
-  [[nodiscard]] static DriveNews news_of(const Frame& frame) {
+  // For the command gate. Not inlined: an image holds them once.
+  [[nodiscard, gnu::noinline]] static DriveNews news_of(const Frame& frame) {
     DriveNews news = {.wheel = wheel_at(frame.id)};
     if (frame.length != 8) {
       news.verdict = Verdict::wrong_length;
@@ -128,7 +128,7 @@ class OdriveDrives {
     return news;
   }
 
-  [[nodiscard]] static bool may_send(const Frame& frame) {
+  [[nodiscard, gnu::noinline]] static bool may_send(const Frame& frame) {
     const auto command = static_cast<std::uint16_t>(frame.id & 0x1FU);
     if (!is_among(sends, frame.id) || frame.length != odrive::length_of(command)) {
       return false;
@@ -149,7 +149,7 @@ class OdriveDrives {
   [[nodiscard]] static std::optional<std::size_t> wheel_of(const Frame& frame) {
     return is_torque(frame) ? std::optional(wheel_at(frame.id)) : std::nullopt;
   }
-  [[nodiscard]] static core::DriveCommand command_of(const Frame& frame) {
+  [[nodiscard, gnu::noinline]] static core::DriveCommand command_of(const Frame& frame) {
     core::DriveCommand command;
     if (is_torque(frame)) {
       const std::size_t wheel = wheel_at(frame.id);
@@ -183,14 +183,14 @@ class OdriveDrives {
     return (frame.id & 0x1FU) == odrive::set_input_torque;
   }
 
-  static Frame frame_of(std::size_t wheel, std::uint16_t command, std::uint32_t first,
-                        std::uint32_t second = 0) {
+  [[gnu::noinline]] static Frame frame_of(std::size_t wheel, std::uint16_t command, std::uint32_t first,
+                                          std::uint32_t second = 0) {
     Frame frame = {.id = id(wheel, command), .length = odrive::length_of(command)};
     put_little_endian_32(frame, 0, first);
     put_little_endian_32(frame, 4, second);
     return frame;
   }
-  static Frame torque_frame(std::size_t wheel, std::int32_t torque_mNm) {
+  [[gnu::noinline]] static Frame torque_frame(std::size_t wheel, std::int32_t torque_mNm) {
     return frame_of(wheel, odrive::set_input_torque,
                     binary32_of_ratio(wiring.sign(wheel) * torque_mNm, mNm_per_motor_Nm));
   }
