@@ -15,7 +15,26 @@
 
 #include "firmware/can/e2e.hpp"
 
+// A build may move the identifiers (STRIKER_CAN_BASE; a robot's description says identifier_base): by as much for all
+// but the three least urgent, which stay at the end of the range. Whatever else is on the bus is not asked; drives of
+// another make are (drives/drive_protocol.hpp).
+#ifndef STRIKER_CAN_BASE
+#define STRIKER_CAN_BASE 0
+#endif
+
 namespace striker::can {
+
+inline constexpr std::int32_t identifier_base = STRIKER_CAN_BASE;
+inline constexpr std::int32_t first_identifier_that_stays = 0x700;
+
+// 0 to 0x5D8: the last that is moved stays below the first that is not.
+static_assert(identifier_base >= 0 && identifier_base % 8 == 0 && identifier_base <= 0x5D8,
+              "STRIKER CAN: identifier_base must be a multiple of 8 from 0 to 1496 (0x5D8)");
+
+[[nodiscard]] constexpr std::uint16_t moved(std::uint16_t identifier) {
+  return static_cast<std::uint16_t>(identifier < first_identifier_that_stays ? identifier + identifier_base
+                                                                             : identifier);
+}
 
 // digits * 10^exponent: scales stay exact without floating point.
 struct Decimal {

@@ -57,7 +57,7 @@ class Receiver {
   template <DriveProtocol Drives>
   void take_drives(const Frame& frame, std::uint32_t tick, Drives& drives, core::Percepts& percepts) {
     DriveReport report;
-    if (accepted(drives.take(frame, tick, report))) {
+    if (accepted(drives.take(frame, tick, report)) && report.is_whole) {
       percepts.wheels = report.speeds;
       percepts.wheels_age_ticks = frame.age_ms;
       percepts.drives_cut = report.cut;

@@ -3,6 +3,6 @@
 
 namespace striker::loop {
 
-template class ControllerNode<core::Controller<BuiltInPilot>, can::StrikerDrives>;
+template class ControllerNode<core::Controller<BuiltInPilot>, BuiltInDrives>;
 
 }  // namespace striker::loop

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node that this build's programs and images run: the built-in policy, for the built-in robot, with Striker's own
-// drives.
+// The node that this build's programs and images run: the built-in policy, for the built-in robot, with the drives that the
+// robot's description names.
 #pragma once
 
-#include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/core/controller.hpp"
 #include "firmware/core/pilot.hpp"
 #include "firmware/loop/built_in_robot.hpp"
@@ -13,12 +12,12 @@
 namespace striker::loop {
 
 using BuiltInPilot = core::Pilot<policy::built_in>;
-using BuiltInNode = ControllerNode<core::Controller<BuiltInPilot>, can::StrikerDrives>;
+using BuiltInNode = ControllerNode<core::Controller<BuiltInPilot>, BuiltInDrives>;
 
 static_assert(BuiltInPilot::suits(built_in_robot),
               "STRIKER POLICY: an action goes beyond the robot's top speed");
 
 // Compiled once, in built_in_node.cpp.
-extern template class ControllerNode<core::Controller<BuiltInPilot>, can::StrikerDrives>;
+extern template class ControllerNode<core::Controller<BuiltInPilot>, BuiltInDrives>;
 
 }  // namespace striker::loop

@@ -50,7 +50,8 @@ class ControllerNode {
     controller_.step(
         {.tick = tick.number,
          .percepts = receiver_.take(tick.frames, tick.number, drives_),
-         .port_faults = tick.port_faults | core::set_if(gate.has_blocked, core::Fault::gate_blocked),
+         .port_faults = tick.port_faults | core::set_if(gate.has_blocked, core::Fault::gate_blocked) |
+                        drive_faults(tick.number),
          .stop = tick.stop},
         actions);
     reporter_.report(tick.number, actions, receiver_.ignored(),
@@ -60,6 +61,9 @@ class ControllerNode {
                       .lost_frames = lost_frames_,
                       .repeat_fault = tick.repeat_fault},
                      ControllerType::Pilot::identity, frames);
+    if constexpr (can::ForeignDrives<Drives>) {
+      drives_.enable(actions.state == core::State::active);
+    }
     drives_.put(actions.drive, frames);
   }
 
@@ -70,9 +74,23 @@ class ControllerNode {
 
  private:
   static constexpr std::size_t end_of_tick = 1;  // lockstep adds it
-  static_assert(can::Reporter::most_frames + Drives::sends.size() + end_of_tick <= can::FrameList::capacity);
+  static_assert(can::Reporter::most_frames + can::most_drive_frames<Drives>() + end_of_tick <=
+                can::FrameList::capacity);
+  static_assert(
+      can::shares_no_identifier<Drives>(),
+      "STRIKER DRIVES: a node's identifier is one of Striker's own: choose other nodes, or move Striker's "
+      "with identifier_base in the robot's description");
 
   static constexpr std::uint32_t greatest_count = 255;
+
+  // After this tick's frames were received.
+  core::Faults drive_faults([[maybe_unused]] std::uint32_t tick) {
+    if constexpr (can::ForeignDrives<Drives>) {
+      return drives_.judge(tick);
+    } else {
+      return 0;
+    }
+  }
 
   // Apart from `step`, whose stack would hold the new parts too.
   [[gnu::noinline]] void restart() {

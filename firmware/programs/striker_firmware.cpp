@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "firmware/can/controller_receives.hpp"
-#include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/host/can/interface_watch.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
+#include "firmware/loop/built_in_robot.hpp"
 #include "firmware/policy/built_in.hpp"
 #include "firmware/ports/linux/bench_peer.hpp"
 #include "firmware/ports/linux/fault_announcer.hpp"
@@ -129,6 +129,8 @@ void require_sound(CLI::App& app, const Options& options) {
   if (options.in_process && !is_real_time) {
     throw CLI::ValidationError("--in-process", "has no SYNC: use it with --clock realtime");
   }
+  host::require_meaning(app, !can::ForeignDrives<loop::BuiltInDrives>, {"--in-process", "--replay", "--role"},
+                        "a build for Striker's own drives");
   host::require_meaning(app, is_replay, {"--interface"}, "--replay");
   host::require_meaning(app, !is_replay,
                         {"--clock", "--role", "--scheduler", "--cpu", "--sync-timeout", "--ticks", "--json",
@@ -223,7 +225,7 @@ core::RobotProfile robot_of(const Options& options) {
 }
 
 void run_on_sync(const Options& options) {
-  const std::vector<std::uint16_t> others = all_but_stops(can::controller_receives<can::StrikerDrives>);
+  const std::vector<std::uint16_t> others = all_but_stops(can::controller_receives<loop::BuiltInDrives>);
   host::CanSocket socket(options.can, others);
   host::CanSocket stops(options.can, stop_identifiers);
   print_granted(options, ask_for_real_time(settings_of(options)));
@@ -248,7 +250,7 @@ void run_on_own_clock(Options options) {
   if (options.in_process) {
     bench.emplace(in_process, settings);
   } else {
-    socket.emplace(options.can, can::controller_receives<can::StrikerDrives>);
+    socket.emplace(options.can, can::controller_receives<loop::BuiltInDrives>);
   }
   std::atomic<core::Fault> fault = core::Fault::none;
   FaultAnnouncer announcer;

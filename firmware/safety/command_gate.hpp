@@ -11,6 +11,10 @@
 // them: that is told (message Safety), and is no fault.
 // What is not on the whitelist does not go out at all (whitelist.hpp).
 //
+// Drives of another make are spoken to with a frame a wheel, and are to be enabled. Enabling takes the same cause, with
+// speeds of both wheels within `wheels_limit_ticks` in place of a sequence; torque also takes that both drives told, within
+// `enabled_limit_ticks`, that they are enabled and have no error (drive_watch.hpp).
+//
 // It shares the CRC and the message table with the receiver, and nothing else: a sequence is fresh here after a
 // streak of small steps (`Sequence`), there by a window of counts. Of consent in one tick both think alike: the last
 // confirmation counts, a disarm beats an arm, a clear right after a stop clears nothing.
@@ -27,11 +31,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/drives/drive_protocol.hpp"
 #include "firmware/can/frame_list.hpp"
 #include "firmware/can/messages.hpp"
+#include "firmware/safety/drive_watch.hpp"
 #include "firmware/safety/sequence.hpp"
 #include "firmware/safety/whitelist.hpp"
 
@@ -44,6 +50,7 @@ struct GateLimits {
 };
 
 inline constexpr std::uint32_t wheels_limit_ticks = 25;
+inline constexpr std::uint32_t enabled_limit_ticks = 35;
 inline constexpr std::uint32_t vision_limit_ticks = 200;
 inline constexpr std::uint32_t armed_limit_ticks = 10'100;
 inline constexpr std::uint32_t challenge_limit_ticks = 600;
@@ -59,7 +66,7 @@ class CommandGate {
     bool disarmed = false;
     for (const can::Frame& frame : frames) {
       if (Drives::owns(frame)) {
-        wheels_.take(Drives::sequence(frame), tick - frame.age_ms);
+        take_wheels(frame, tick - frame.age_ms);
       } else if (can::is<can::VisionPose>(frame)) {
         pose_.take(sequence_of<can::VisionPose>(frame), tick - frame.age_ms);
       } else if (can::is<can::VisionBall>(frame)) {
@@ -109,6 +116,17 @@ class CommandGate {
   [[nodiscard]] std::uint32_t active_limits() const { return active_limits_; }
 
  private:
+  static constexpr bool is_foreign = can::ForeignDrives<Drives>;
+  static_assert(is_foreign || can::ProtectedDrives<Drives>);
+
+  void take_wheels(const can::Frame& frame, std::uint32_t received_tick) {
+    if constexpr (is_foreign) {
+      wheels_.take(Drives::news_of(frame), received_tick);
+    } else {
+      wheels_.take(Drives::sequence(frame), received_tick);
+    }
+  }
+
   // The counter of a frame whose length and CRC are correct.
   template <class Message>
   static std::optional<std::uint8_t> sequence_of(const can::Frame& frame) {
@@ -168,15 +186,52 @@ class CommandGate {
   }
 
   void check_command(can::Frame& frame, std::uint32_t tick) {
+    if constexpr (is_foreign) {
+      check_enabling(frame, tick);
+    }
     const core::DriveCommand wanted = Drives::command_of(frame);
     if (wanted == core::DriveCommand{}) {
-      torque_ = {};
+      remember(frame, {});
       return;
     }
-    const core::DriveCommand passed = has_cause(tick) ? limited(wanted) : block();
-    torque_ = passed.torque;
+    const core::DriveCommand passed = may_move(tick) ? limited(wanted, before(frame)) : block();
+    remember(frame, passed.torque);
     if (!(passed == wanted)) {
       recode(frame, passed);
+    }
+  }
+
+  void check_enabling(can::Frame& frame, std::uint32_t tick) {
+    if (Drives::enables(frame) && !has_cause(tick)) {
+      block();
+      Drives::disable(frame);
+    }
+  }
+  [[nodiscard]] bool may_move(std::uint32_t tick) const {
+    if constexpr (is_foreign) {
+      return has_cause(tick) && wheels_.enabled(tick, enabled_limit_ticks);
+    } else {
+      return has_cause(tick);
+    }
+  }
+
+  // The torques that a command follows: those that its frame has.
+  [[nodiscard]] core::WheelTorques before(const can::Frame& frame) const {
+    if constexpr (is_foreign) {
+      return can::left_wheel == Drives::wheel_of(frame) ? core::WheelTorques{torque_.left_mNm, 0}
+                                                        : core::WheelTorques{0, torque_.right_mNm};
+    } else {
+      return torque_;
+    }
+  }
+  void remember(const can::Frame& frame, const core::WheelTorques& torque) {
+    if constexpr (is_foreign) {
+      if (const auto wheel = Drives::wheel_of(frame)) {
+        torque_ = *wheel == can::left_wheel ? core::WheelTorques{torque.left_mNm, torque_.right_mNm}
+                                            : core::WheelTorques{torque_.left_mNm, torque.right_mNm};
+      }
+    } else {
+      torque_ = torque;
     }
   }
 
@@ -191,10 +246,10 @@ class CommandGate {
     return {};
   }
 
-  core::DriveCommand limited(const core::DriveCommand& wanted) {
+  core::DriveCommand limited(const core::DriveCommand& wanted, const core::WheelTorques& last) {
     return {
-        .torque = {limited(wanted.torque.left_mNm, torque_.left_mNm),
-                   limited(wanted.torque.right_mNm, torque_.right_mNm)},
+        .torque = {limited(wanted.torque.left_mNm, last.left_mNm),
+                   limited(wanted.torque.right_mNm, last.right_mNm)},
         .set_point = {bounded(wanted.set_point.left_mm_s, limits_.set_point_mm_s, can::limit_set_point),
                       bounded(wanted.set_point.right_mm_s, limits_.set_point_mm_s, can::limit_set_point)}};
   }
@@ -215,7 +270,7 @@ class CommandGate {
   }
 
   GateLimits limits_;
-  Sequence<12, 4> wheels_;
+  std::conditional_t<is_foreign, DriveWatch, Sequence<12, 4>> wheels_;
   Sequence<3, 3> pose_;
   Sequence<3, 3> ball_;
   Sequence<3, 3> operator_;

@@ -23,6 +23,9 @@ template <can::DriveProtocol Drives>
   const auto in_table = [&] {
     return can::any_layout([&](const auto& message) { return message.info.id == frame.id; });
   };
+  if constexpr (can::ForeignDrives<Drives>) {
+    return listed || (!in_table() && Drives::may_send(frame));
+  }
   return listed || (frame.length <= frame.data.size() && !in_table() &&
                     std::find(Drives::sends.begin(), Drives::sends.end(), frame.id) != Drives::sends.end());
 }

@@ -100,7 +100,7 @@ void TimedLink::end_step() {
     queue(frame, step_->sync_ns + options_.step_ns);
   }
   if (std::any_of(reply_.begin(), reply_.end(), answers_a_picture)) {
-    const auto command = std::find_if(reply_.begin(), reply_.end(), can::is<can::WheelCommand>);
+    const auto command = std::find_if(reply_.begin(), reply_.end(), is_drive_command);
     deciding_command_ = command != reply_.end() ? std::optional(*command) : std::nullopt;
   }
   step_.reset();

@@ -26,7 +26,7 @@
 #include "sil/record/episode_journal.hpp"
 #include "sil/record/episode_progress.hpp"
 #include "sil/record/pacer.hpp"
-#include "sil/robot/striker_drives.hpp"
+#include "sil/robot/drives/foreign_drives.hpp"
 #include "sil/robot/variation.hpp"
 #include "sil/scenario/kick_scenario.hpp"
 #include "sil/task/kick_report.hpp"
@@ -118,10 +118,11 @@ class KickSession {
         robot_(robot_of(options)),
         variation_(completed(variation_of(options.vary), robot_)),
         plants_(make_plants(plant_kind_of(options.plant).value(), spec_of(robot_), variation_)),
+        drives_(make_drives(loop::built_in_wiring)),
         camera_(make_camera(variation_, options.seed)),
         seat_({.robot = 0,
                .plant = *plants_.back(),
-               .drives = drives_,
+               .drives = *drives_,
                .camera = *camera_,
                .link = bus.link(),
                .lockstep = !options.real_time || options.in_process()}),
@@ -179,7 +180,7 @@ class KickSession {
   core::RobotDescription robot_;
   Variation variation_;
   std::vector<std::unique_ptr<Plant>> plants_;
-  StrikerDrives drives_;
+  std::unique_ptr<WheelDrives> drives_;
   std::unique_ptr<Camera> camera_;
   Seat seat_;
   KickScenario scenario_;

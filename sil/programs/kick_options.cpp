@@ -5,6 +5,7 @@
 
 #include "firmware/host/command_line.hpp"
 #include "sil/bus/bit_rate.hpp"
+#include "sil/bus/controller_messages.hpp"
 #include "sil/programs/robot_options.hpp"
 #include "sil/robot/plant.hpp"
 
@@ -107,6 +108,10 @@ void define(CLI::App& kick, KickOptions& options) {
                           {"--answer-timeout", "--start-timeout"},
                           "--bus can:IFACE in lockstep (without --realtime)");
     require_robot_in_process(kick, options.bus);
+    if (has_foreign_drives && options.plant == "servo") {
+      throw CLI::ValidationError("--plant",
+                                 "servo takes set-points, which this build's drives are not told: use drive");
+    }
     host::require_meaning(kick, options.in_process(), {"--decisions"},
                           "--bus inproc: it reads the controller's own state");
     host::require_meaning(kick, options.in_process(), {"--policy"},

@@ -24,6 +24,13 @@ std::string vary_problem(const std::string& text) {
   return text.empty() ? "give NAME=VALUE, as mass=0.9" : "";
 }
 
+// Nodes and gears are part of the controller's type.
+bool is_wired_as_built(const can::DriveWiring& wiring) {
+  constexpr const can::DriveWiring& built = loop::built_in_wiring;
+  const bool is_own = wiring.kind == can::DriveKind::striker && built.kind == wiring.kind;
+  return is_own ? wiring.identifier_base == built.identifier_base : wiring == built;
+}
+
 }  // namespace
 
 void define_robot(CLI::App& command, std::string& file) {
@@ -47,7 +54,17 @@ void require_robot_in_process(CLI::App& command, const std::string& bus) {
 }
 
 core::RobotDescription described_robot(const std::string& file, Suits suits) {
-  const core::RobotDescription robot = file.empty() ? loop::built_in_description : read_robot(file);
+  core::RobotDescription robot = loop::built_in_description;
+  if (!file.empty()) {
+    const auto [described, wiring] = read_robot_and_drives(file);
+    if (!is_wired_as_built(wiring)) {
+      throw std::runtime_error(fmt::format(
+          "{}: its drives, their wiring or identifier_base are not those that this program is built for: "
+          "configure with -DSTRIKER_ROBOT={}",
+          file, file));
+    }
+    robot = described;
+  }
   const bool is_built_in = suits == nullptr;
   if (!(is_built_in ? loop::BuiltInPilot::suits : suits)(core::profile_of(robot))) {
     throw std::runtime_error(

@@ -2,9 +2,12 @@
 // striker-sil: the world around the controller, in lockstep or at wall-clock speed.
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
 #include "firmware/policy/built_in.hpp"
+#include "sil/bus/controller_messages.hpp"
 #include "sil/programs/campaign_command.hpp"
 #include "sil/programs/fault_command.hpp"
 #include "sil/programs/kick_command.hpp"
@@ -41,6 +44,11 @@ int main(int argc, char** argv) {
       app, argc, argv,
       [&] {
         host::catch_stop_signals();
+        if (has_foreign_drives && !kick->parsed()) {
+          throw std::runtime_error(
+              "this build's robot has drives of another make: there is 'kick' for them. Everything else knows Striker's "
+              "own: configure with a description without drives = \"...\" (-DSTRIKER_ROBOT=FILE.toml)");
+        }
         if (campaign->parsed()) {
           return play_campaign(campaign_options);
         }

@@ -20,6 +20,28 @@ TEST(RobotFile, TheThreeRolesAreThoseOfTheFirmware) {
   EXPECT_EQ(read_robot(folder / "goalkeeper.toml"), core::goalkeeper);
 }
 
+TEST(RobotFile, TheDrivesOfOthersAreRead) {
+  const std::filesystem::path folder = STRIKER_ROBOTS;
+  for (const char* const name : {"forward-odrive.toml", "forward-cia402.toml"}) {
+    EXPECT_EQ(read_robot(folder / name), core::forward) << name;
+  }
+  EXPECT_EQ(read_robot_and_drives(folder / "forward.toml").wiring, can::DriveWiring{});
+  EXPECT_EQ(read_robot_and_drives(folder / "forward-odrive.toml").wiring,
+            (can::DriveWiring{.kind = can::DriveKind::odrive,
+                              .identifier_base = 768,
+                              .left_node = 0,
+                              .right_node = 1,
+                              .right_reversed = 1}));
+  EXPECT_EQ(read_robot_and_drives(folder / "forward-cia402.toml").wiring,
+            (can::DriveWiring{.kind = can::DriveKind::cia402,
+                              .identifier_base = 768,
+                              .left_node = 1,
+                              .right_node = 2,
+                              .right_reversed = 1,
+                              .gear_percent = 500,
+                              .rated_torque_mNm = 80}));
+}
+
 const std::string sound =
     "body_mass_g = 2_200\nwheel_mass_g = 120\nwheel_radius_um = 50_000\naxle_length_um = 200_000\n"
     "torque_limit_mNm = 600\ntop_rim_speed_mm_s = 1_500\ncamera_latency_ms = 35\ncommand_delay_ms = 20\n";
@@ -55,6 +77,14 @@ TEST(RobotFile, WhatIsWrongIsNamedWithItsPlace) {
       {sound + "camera_rate_Hz = 9\n", "line 9: camera_rate_Hz = 9 must be a whole number from 10 to 100"},
       {sound + "camera_rate_Hz = 101\n", "line 9: camera_rate_Hz = 101 must be a whole number"},
       {sound + "camera_rate_Hz = 59.94\n", "line 9: camera_rate_Hz must be a whole number"},
+      {sound + "drives = \"moteus\"\n",
+       "line 9: drives = \"moteus\" must be one of \"striker\", \"odrive\", \"cia402\""},
+      {sound + "drives = 1\n", "line 9: 'drives = 1' is no name of drives"},
+      {sound + "drives = 'odrive'\n", "line 9: 'drives = 'odrive'' is no name of drives"},
+      {sound + "drive_left_node = 128\n",
+       "line 9: drive_left_node = 128 must be a whole number from 0 to 127"},
+      {sound + "drive_left_node = 2\n", "drive_left_node and drive_right_node are both 2"},
+      {sound + "identifier_base = 4\n", "identifier_base = 4 must be a multiple of 8"},
       {"= 3", "line 1: "}};
   for (const auto& [text, expected] : cases) {
     const std::string problem = problem_of(text);

@@ -17,7 +17,7 @@ struct WheelCommand {
 template <>
 inline constexpr auto layout<WheelCommand> =
     Layout<WheelCommand, 4>{.info = {.name = "WheelCommand",
-                                     .id = 0x050,
+                                     .id = moved(0x050),
                                      .length = 8,
                                      .sender = Node::controller,
                                      .period_ms = 1,
@@ -68,7 +68,7 @@ struct WheelState {
 template <>
 inline constexpr auto layout<WheelState> = Layout<WheelState, 3>{
     .info = {.name = "WheelState",
-             .id = 0x060,
+             .id = moved(0x060),
              .length = 6,
              .sender = Node::drives,
              .period_ms = 1,

@@ -14,7 +14,7 @@ struct Sync {
 template <>
 inline constexpr auto layout<Sync> =
     Layout<Sync, 1>{.info = {.name = "Sync",
-                             .id = 0x030,
+                             .id = moved(0x030),
                              .length = 6,
                              .sender = Node::simulator,
                              .period_ms = 1,

@@ -30,7 +30,7 @@ struct EmergencyStop {
 template <>
 inline constexpr auto layout<EmergencyStop> =
     Layout<EmergencyStop, 1>{.info = {.name = "EmergencyStop",
-                                      .id = 0x010,
+                                      .id = moved(0x010),
                                       .length = 2,
                                       .sender = Node::operator_,
                                       .data_ids = 1,
@@ -51,7 +51,7 @@ struct ModeCommand {
 template <>
 inline constexpr auto layout<ModeCommand> =
     Layout<ModeCommand, 2>{.info = {.name = "ModeCommand",
-                                    .id = 0x040,
+                                    .id = moved(0x040),
                                     .length = 6,
                                     .sender = Node::operator_,
                                     .data_ids = 4,
@@ -77,7 +77,7 @@ struct Challenge {
 template <>
 inline constexpr auto layout<Challenge> =
     Layout<Challenge, 2>{.info = {.name = "Challenge",
-                                  .id = 0x090,
+                                  .id = moved(0x090),
                                   .length = 6,
                                   .sender = Node::controller,
                                   .data_ids = 11,

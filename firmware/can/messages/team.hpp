@@ -23,7 +23,7 @@ struct WheelOrder {
 template <>
 inline constexpr auto layout<WheelOrder> =
     Layout<WheelOrder, 2>{.info = {.name = "WheelOrder",
-                                   .id = 0x084,
+                                   .id = moved(0x084),
                                    .length = 6,
                                    .sender = Node::team,
                                    .period_ms = core::decision_period_ms,
@@ -64,7 +64,7 @@ struct MotionOrder {
 template <>
 inline constexpr auto layout<MotionOrder> =
     Layout<MotionOrder, 5>{.info = {.name = "MotionOrder",
-                                    .id = 0x088,
+                                    .id = moved(0x088),
                                     .length = 8,
                                     .sender = Node::team,
                                     .period_ms = core::decision_period_ms,

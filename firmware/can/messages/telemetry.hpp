@@ -27,7 +27,7 @@ struct FaultReport {
 template <>
 inline constexpr auto layout<FaultReport> =
     Layout<FaultReport, 2>{.info = {.name = "FaultReport",
-                                    .id = 0x020,
+                                    .id = moved(0x020),
                                     .length = 7,
                                     .sender = Node::controller,
                                     .period_ms = 100,
@@ -63,7 +63,7 @@ struct Status {
 template <>
 inline constexpr auto layout<Status> = Layout<Status, 10>{
     .info = {.name = "Status",
-             .id = 0x100,
+             .id = moved(0x100),
              .length = 8,
              .sender = Node::controller,
              .period_ms = 10,
@@ -117,7 +117,7 @@ struct Safety {
 template <>
 inline constexpr auto layout<Safety> = Layout<Safety, 4>{
     .info = {.name = "Safety",
-             .id = 0x108,
+             .id = moved(0x108),
              .length = 8,
              .sender = Node::controller,
              .period_ms = 100,
@@ -149,7 +149,7 @@ struct Decision {
 template <>
 inline constexpr auto layout<Decision> = Layout<Decision, 5>{
     .info = {.name = "Decision",
-             .id = 0x110,
+             .id = moved(0x110),
              .length = 7,
              .sender = Node::controller,
              .period_ms = core::decision_period_ms,
@@ -186,7 +186,7 @@ struct Timing {
 template <>
 inline constexpr auto layout<Timing> =
     Layout<Timing, 4>{.info = {.name = "Timing",
-                               .id = 0x120,
+                               .id = moved(0x120),
                                .length = 8,
                                .sender = Node::controller,
                                .period_ms = 100,

@@ -22,7 +22,7 @@ struct VisionPose {
 template <>
 inline constexpr auto layout<VisionPose> =
     Layout<VisionPose, 4>{.info = {.name = "VisionPose",
-                                   .id = 0x070,
+                                   .id = moved(0x070),
                                    .length = 8,
                                    .sender = Node::vision,
                                    .period_ms = core::decision_period_ms,
@@ -72,7 +72,7 @@ struct VisionBall {
 template <>
 inline constexpr auto layout<VisionBall> =
     Layout<VisionBall, 3>{.info = {.name = "VisionBall",
-                                   .id = 0x080,
+                                   .id = moved(0x080),
                                    .length = 6,
                                    .sender = Node::vision,
                                    .period_ms = core::decision_period_ms,

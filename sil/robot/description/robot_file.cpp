@@ -21,6 +21,11 @@ using core::RobotDescription;
 
 using core::RobotKey;
 
+using can::DriveWiring;
+using can::WiringKey;
+
+constexpr std::string_view drives_key = "drives";
+
 [[noreturn]] void fail(const std::string& file, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", file, what));
 }
@@ -28,12 +33,16 @@ using core::RobotKey;
 void refuse_unknown(const toml::table& table, const std::string& file) {
   for (const auto& entry : table) {
     const toml::key& key = entry.first;
-    const auto* const known = std::find_if(core::robot_keys.begin(), core::robot_keys.end(),
-                                           [&](const RobotKey& one) { return one.name == key.str(); });
-    if (known == core::robot_keys.end()) {
+    const auto is_named = [&](const auto& one) { return one.name == key.str(); };
+    if (key.str() != drives_key && std::none_of(core::robot_keys.begin(), core::robot_keys.end(), is_named) &&
+        std::none_of(can::wiring_keys.begin(), can::wiring_keys.end(), is_named)) {
       std::string names;
       for (const RobotKey& one : core::robot_keys) {
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", one.name);
+        names += fmt::format("{}, ", one.name);
+      }
+      names += drives_key;
+      for (const WiringKey& one : can::wiring_keys) {
+        names += fmt::format(", {}", one.name);
       }
       fail(file, fmt::format("line {}: '{}' is no key of a robot; there are {}", key.source().begin.line,
                              key.str(), names));
@@ -58,6 +67,44 @@ std::int32_t value_of(const RobotKey& key, const toml::table& table, const std::
   return static_cast<std::int32_t>(*value);
 }
 
+can::DriveKind kind_of(const toml::table& table, const std::string& file) {
+  const toml::node* const node = table.get(drives_key);
+  if (node == nullptr) {
+    return can::DriveKind::striker;
+  }
+  const auto name = node->value_exact<std::string>();
+  const auto& names = can::drive_kind_names;
+  const auto* const found = std::find(names.begin(), names.end(), name.value_or(""));
+  if (found == names.end()) {
+    fail(file, fmt::format("line {}: drives{} must be one of \"{}\"", node->source().begin.line,
+                           name ? fmt::format(" = \"{}\"", *name) : "", fmt::join(names, "\", \"")));
+  }
+  return static_cast<can::DriveKind>(found - names.begin());
+}
+
+std::int32_t value_of(const WiringKey& key, const toml::table& table, const std::string& file) {
+  const RobotKey known = {key.name, nullptr, key.least, key.greatest, true};
+  return table.contains(key.name) ? value_of(known, table, file) : DriveWiring{}.*key.member;
+}
+
+DriveWiring wiring_of(const toml::table& table, const RobotDescription& robot, const std::string& file) {
+  DriveWiring wiring;
+  wiring.kind = kind_of(table, file);
+  for (const WiringKey& key : can::wiring_keys) {
+    wiring.*key.member = value_of(key, table, file);
+  }
+  wiring.wheel_radius_um = robot.wheel_radius_um;
+  if (wiring.left_node == wiring.right_node) {
+    fail(file,
+         fmt::format("drive_left_node and drive_right_node are both {}: each drive has a node of its own",
+                     wiring.left_node));
+  }
+  if (wiring.identifier_base % 8 != 0) {
+    fail(file, fmt::format("identifier_base = {} must be a multiple of 8", wiring.identifier_base));
+  }
+  return wiring;
+}
+
 std::string_view line_of(std::string_view text, std::uint32_t number) {
   for (std::uint32_t line = 1; line < number; ++line) {
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
@@ -72,6 +119,14 @@ void refuse_fancy(const toml::table& table, std::string_view text, const std::st
     const std::string_view line = line_of(text, begin.line);
     const std::string_view number = line.substr(std::min<std::size_t>(begin.column - 1, line.size()));
     const bool quoted = line.substr(0, begin.column - 1).find_first_of("\"'") != std::string_view::npos;
+    if (key.str() == drives_key) {
+      if (line.substr(0, begin.column - 1).find_first_of("\"'") != std::string_view::npos ||
+          !number.starts_with('"')) {
+        fail(file,
+             fmt::format("line {}: '{}' is no name of drives, as in drives = \"odrive\"", begin.line, line));
+      }
+      continue;
+    }
     const bool plain = !number.empty() && number[0] >= '0' && number[0] <= '9' &&
                        (number.size() < 2 || number[0] != '0' || number.find_first_of("xob") != 1);
     if (quoted || !plain) {
@@ -84,9 +139,14 @@ void refuse_fancy(const toml::table& table, std::string_view text, const std::st
 }  // namespace
 
 RobotDescription read_robot(const std::filesystem::path& file) {
+  return read_robot_and_drives(file).robot;
+}
+
+RobotAndDrives read_robot_and_drives(const std::filesystem::path& file) {
   const std::string name = file.string();
   const std::string text = host::read_file(file);
   RobotDescription robot{};
+  DriveWiring wiring;
   try {
     const toml::table table = toml::parse(text, name);
     refuse_unknown(table, name);
@@ -94,6 +154,7 @@ RobotDescription read_robot(const std::filesystem::path& file) {
       robot.*key.member = value_of(key, table, name);
     }
     refuse_fancy(table, text, name);
+    wiring = wiring_of(table, robot, name);
   } catch (const toml::parse_error& error) {
     fail(name, fmt::format("line {}: {}", error.source().begin.line, std::string(error.description())));
   }
@@ -110,7 +171,7 @@ RobotDescription read_robot(const std::filesystem::path& file) {
          "its wheel loops would not fit 32 bits, or have no gain at all: look at body_mass_g, wheel_mass_g, "
          "wheel_radius_um and torque_limit_mNm again");
   }
-  return robot;
+  return {.robot = robot, .wiring = wiring};
 }
 
 }  // namespace striker::sil

@@ -15,10 +15,14 @@
 //   tyre_friction_percent = 80      10 to 1,000; left out: 300, AI Soccer's
 //   field_half_length_mm = 3_900    where a kick ends, along x from the origin; 0 to 8,000; left out: 0, nowhere
 //   field_half_width_mm = 2_325     along y, likewise
+//
+// And how its wheels are driven, if not by Striker's own drives: drives, identifier_base and drive_...
+// (firmware/can/drives/drive_wiring.hpp).
 #pragma once
 
 #include <filesystem>
 
+#include "firmware/can/drives/drive_wiring.hpp"
 #include "firmware/core/robot_profile.hpp"
 
 namespace striker::sil {
@@ -26,5 +30,11 @@ namespace striker::sil {
 // Throws std::runtime_error with one line that names file, line, key, value and what is allowed; also where the wheel
 // loops could not serve such a robot (core::loops_fit).
 [[nodiscard]] core::RobotDescription read_robot(const std::filesystem::path& file);
+
+struct RobotAndDrives {
+  core::RobotDescription robot;
+  can::DriveWiring wiring;
+};
+[[nodiscard]] RobotAndDrives read_robot_and_drives(const std::filesystem::path& file);
 
 }  // namespace striker::sil
