@@ -27,7 +27,7 @@ class Findings:
     contexts: dict = field(default_factory=dict)  # context -> the function's start
     feasible: set = field(default_factory=set)    # (context, block, successor, kind)
     turns: dict = field(default_factory=dict)     # (context, head) -> most times back for one entry, None where unknown
-    passes: dict = field(default_factory=dict)    # (context, head, edge) -> most times for one entry into the loop
+    passes: dict = field(default_factory=dict)    # (context, head) -> edge -> most times for one entry
 
 
 class Execution:
@@ -138,10 +138,10 @@ class Execution:
         else:
             old = self.findings.turns.get(key, 0)
             self.findings.turns[key] = None if old is None else max(old, turns)
+            most = self.findings.passes.setdefault(key, {})
             for edge, count in passes.items():
-                place = (*key, edge)
-                before = self.findings.passes.get(place, 0)
-                self.findings.passes[place] = None if count is None or before is None else max(before, count)
+                before = most.get(edge, 0)
+                most[edge] = None if count is None or before is None else max(before, count)
         return [(target, "exit", state) for target, state in exits.items()], passes
 
     def _unroll(self, function, loop, entry, context):

@@ -36,13 +36,25 @@ class Function:
     blocks: dict = field(default_factory=dict)
 
 
+def plain_name(name):
+    """Without return type, arguments and namespaces, which begin with a small letter: `seal_of<PendingTorques>`."""
+    name = re.sub(r" \[clone [^]]*\]|\(anonymous namespace\)::|\b[a-z]\w*::", "", name)
+    depth, begin = 0, 0
+    for at, letter in enumerate(name):
+        depth += (letter == "<") - (letter == ">")
+        if depth == 0 and letter == " ":
+            begin = at + 1
+        elif depth == 0 and letter == "(":
+            return name[begin:at]
+    return name[begin:]
+
+
 def short_name(name):
-    """Without arguments, templates and namespaces, as far as it stays readable: `Controller::step`."""
-    name = re.sub(r" \[clone [^]]*\]|\(anonymous namespace\)::", "", name)
+    """Without templates' arguments too: `Controller::step`."""
+    name = plain_name(name)
     while (plain := re.sub(r"<[^<>]*>", "", name)) != name:
         name = plain
-    name = name.split("(")[0].split(" ")[-1]
-    return re.sub(r"^striker::(\w+::)?(detail::)?", "", name)
+    return name
 
 
 class Program:

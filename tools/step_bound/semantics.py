@@ -6,10 +6,10 @@ tested against QEMU (tests/step_bound).
 """
 
 from . import vector_semantics
-from .instruction import OPPOSITE, Memory, RegisterList, Shift
+from .instruction import OPPOSITE, Memory, Shift
 from .refusal import Refusal
-from .state import STACK, is_stack, join_states
-from .values import MASK, Flags, Pointer, add, holds, logic, low, shift, signed, subtract
+from .state import STACK, aligned_stack, join_states
+from .values import MASK, Flags, Pointer, add, holds, logic, shift, signed, subtract
 
 NO_EFFECT = frozenset("nop dmb dsb isb pld pli yield hint cpsid cpsie wfi b bl bx cbz cbnz tbb tbh le letp".split())
 UNKNOWN_RESULT = {
@@ -134,17 +134,15 @@ def arithmetic(semantics, state, insn):
     value = add(a, b) if adds else subtract(a, b)
     state.put(target, value)
     if insn.sets_flags and adds:
-        state.flags = Flags("result", value) if isinstance(value, int) else None
+        state.flags = Flags("sum", a, b) if isinstance(a, int) and isinstance(b, int) else None
     elif insn.sets_flags:
         state.flags = Flags("compare", a, b) if a is not None and b is not None else None
 
 
 def bitwise(semantics, state, insn):
     target, a, b = sources(semantics, state, insn)
-    if insn.operation == "bic" and isinstance(a, Pointer) and b in (7, 15) and is_stack(a.base):
-        name = f"{STACK}-aligned{insn.address:x};"  # a frame that wants more than the stack's own 8 bytes
-        state.forget(name)
-        value = Pointer(name, 0, True)
+    if insn.operation == "bic" and isinstance(a, Pointer) and b in (7, 15) and a.base == STACK:
+        value = aligned_stack(a.offset, b)  # a frame that wants more than the stack's own 8 bytes
     else:
         value = logic(insn.operation, a, b)
     state.put(target, value)
@@ -165,7 +163,7 @@ def compare(semantics, state, insn):
     if insn.operation == "cmp":
         state.flags = Flags("compare", a, b) if a is not None and b is not None or b == 0 else None
     elif insn.operation == "cmn":
-        state.flags = None
+        state.flags = Flags("sum", a, b) if isinstance(a, int) and isinstance(b, int) else None
     else:
         result = logic("and" if insn.operation == "tst" else "eor", a, b)
         state.flags = Flags("result", result) if isinstance(result, int) else None

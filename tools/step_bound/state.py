@@ -5,7 +5,7 @@ Memory is kept for the stack alone. Assumed of the code: a store through an addr
 does not change a known stack word. A name stands for one value at a time: whoever gives it anew calls `forget` first.
 """
 
-from .values import MASK, Low, Pointer, add, join, low
+from .values import MASK, Low, Negated, Pointer, join, low
 
 STACK = "sp"
 
@@ -13,6 +13,23 @@ STACK = "sp"
 def is_stack(base):
     """The stack pointer, what it was aligned to, or a loop's walk along it."""
     return base.startswith(STACK)
+
+
+def aligned_stack(offset, mask):
+    """The stack pointer's distance `offset`, rounded down: its name says from where to where it may lie."""
+    return Pointer(f"{STACK}@{offset - mask}@{offset}", 0, True)
+
+
+def extent(base, offset, size):
+    """The bytes that an access may touch, from the stack pointer on; None for anywhere on the stack."""
+    if base == STACK:
+        return offset, offset + size
+    parts = base.split("@")
+    return (int(parts[1]) + offset, int(parts[2]) + offset + size) if len(parts) == 3 and parts[0] == STACK else None
+
+
+def may_overlap(a, b):
+    return a is None or b is None or a[0] < b[1] and b[0] < a[1]
 
 
 class State:
@@ -49,8 +66,10 @@ class State:
     def store(self, address, size, value):
         if not isinstance(address, Pointer) or not is_stack(address.base):
             return
+        written = extent(address.base, address.offset, size)
         for base, offset, width in list(self.stack):
-            if base != address.base or offset < address.offset + size and address.offset < offset + width:
+            apart = base == address.base and not may_overlap((offset, offset + width), (address.offset, address.offset + size))
+            if not apart and may_overlap(written, extent(base, offset, width)):
                 del self.stack[(base, offset, width)]
         if value is not None:
             narrow = value & ((1 << 8 * size) - 1) if isinstance(value, int) else value if size == 4 else None
@@ -60,12 +79,12 @@ class State:
     def forget(self, name):
         """Names that begin so will be given anew."""
         def kept(value):
-            if isinstance(value, Pointer) and value.base.startswith(name):
+            if isinstance(value, (Pointer, Negated)) and value.base.startswith(name):
                 return None if low(value) is None else Low(low(value))
             return value
         self.registers = {r: k for r, v in self.registers.items() if (k := kept(v)) is not None}
         self.stack = {s: k for s, v in self.stack.items() if not s[0].startswith(name) and (k := kept(v)) is not None}
-        if self.flags is not None and any(isinstance(v, Pointer) and v.base.startswith(name) for v in self.flags[1:]):
+        if self.flags is not None and any(isinstance(v, (Pointer, Negated)) and v.base.startswith(name) for v in self.flags[1:]):
             self.flags = None
 
 
@@ -103,7 +122,3 @@ def widen(state, back, key):
     stack = {s: widened(s, v, clean.stack.get(s), back.stack.get(s)) for s, v in state.stack.items()
              if not s[0].startswith((key, STACK + key))}
     return State(registers, stack, None)
-
-
-def push_address(state, words):
-    return add(state.registers.get(STACK), -4 * words & MASK)

@@ -3,6 +3,7 @@
 
     int                              the number itself, 0 to 2^32 - 1
     Pointer(base, offset, aligned)   a named but unknown base, and a known distance; `aligned`: the base is a multiple of 4
+    Negated(base, offset, aligned)   the offset less such a base, as loops that run up to an end have it
     Low(bits)                        unknown but for its two lowest bits
     None                             unknown
 
@@ -15,6 +16,12 @@ MASK = 0xFFFFFFFF
 
 
 class Pointer(NamedTuple):
+    base: str
+    offset: int
+    aligned: bool
+
+
+class Negated(NamedTuple):
     base: str
     offset: int
     aligned: bool
@@ -33,7 +40,7 @@ def low(value):
     """The two lowest bits, or None."""
     if isinstance(value, int):
         return value & 3
-    if isinstance(value, Pointer):
+    if isinstance(value, (Pointer, Negated)):
         return value.offset & 3 if value.aligned else None
     return value.bits if isinstance(value, Low) else None
 
@@ -47,8 +54,10 @@ def add(a, b):
         if isinstance(b, int):
             return a + b & MASK
         a, b = b, a
-    if isinstance(a, Pointer) and isinstance(b, int):
-        return Pointer(a.base, signed(a.offset + b), a.aligned)
+    if isinstance(a, (Pointer, Negated)) and isinstance(b, int):
+        return type(a)(a.base, signed(a.offset + b), a.aligned)
+    if {type(a), type(b)} == {Pointer, Negated} and a.base == b.base:
+        return a.offset + b.offset & MASK
     la, lb = low(a), low(b)
     return None if la is None or lb is None else Low(la + lb & 3)
 
@@ -58,6 +67,8 @@ def subtract(a, b):
         return add(a, -b & MASK)
     if isinstance(a, Pointer) and isinstance(b, Pointer) and a.base == b.base:
         return a.offset - b.offset & MASK
+    if isinstance(a, int) and isinstance(b, Pointer):
+        return Negated(b.base, signed(a - b.offset), b.aligned)
     la, lb = low(a), low(b)
     return None if la is None or lb is None else Low(la - lb & 3)
 
@@ -108,7 +119,8 @@ def join(a, b):
 
 
 class Flags(NamedTuple):
-    """What the flags came from: "compare" a with b, a "result" a, or "holds": a condition known by a branch."""
+    """What the flags came from: "compare" a with b, the "sum" of a and b, a "result" a, or "holds": a condition that a branch told, and
+    its opposite."""
     kind: str
     a: object
     b: object = 0
@@ -125,6 +137,10 @@ def holds(condition, flags):
             return None
         negative = flags.a >> 31 == 1
         return {"eq": flags.a == 0, "ne": flags.a != 0, "mi": negative, "pl": not negative}.get(condition)
+    if flags.kind == "sum":
+        carry, value = flags.a + flags.b > MASK, flags.a + flags.b & MASK
+        return {"eq": value == 0, "ne": value != 0, "cs": carry, "cc": not carry, "hi": carry and value != 0,
+                "ls": not carry or value == 0, "mi": value >> 31 == 1, "pl": value >> 31 == 0}.get(condition)
     return _compared(condition, flags.a, flags.b)
 
 

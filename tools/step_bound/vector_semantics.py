@@ -66,7 +66,7 @@ def _access(state, insn, memory):
     elif memory.writes_back:
         state.put(memory.base, address)
     if insn.operation.startswith("vst"):
-        _overwrite(state, address, 64)
+        _overwrite(state, address, 64 if INTERLEAVED.match(insn.operation) else BYTES[insn.operands[0][0]])
 
 
 def _overwrite(state, address, size):
