@@ -20,6 +20,7 @@ class Bound:
         self.edges = {}    # (context, block, successor, kind) -> variable
         self.entries = {}  # context -> variable: how often it is called
         self.into = {}     # (context, block) -> variables: how often it runs
+        self.turns = {}    # (context, head): how often a loop turns back at most, for one entry
         self.used_facts, self.unbounded = set(), []
         self._add_context((), root, None)
         self._add_call_facts()
@@ -32,6 +33,9 @@ class Bound:
 
     def runs(self, context, block):
         return sum(self.values[variable] for variable in self.into.get((context, block), ()))
+
+    def calls(self, context):
+        return self.values[self.entries[context]]
 
     # ---- the program --------------------------------------------------------------------------------------------------------
     def _add_context(self, context, start, calling):
@@ -91,6 +95,7 @@ class Bound:
             turns = self._turns_by_fact(context, function, loop)
             if turns is None:
                 return
+        self.turns[(context, loop.head)] = turns
         self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering], 0)
         if self.findings.turns.get((context, loop.head)) is None:
             return
@@ -121,6 +126,7 @@ class Bound:
         if fact is None:
             self.unbounded.append(f"{function.name}: an irreducible loop at {function.retreating[0][1]:#x}")
             return
+        self.turns[(context, function.start)] = fact.at_most
         back = [v for source, target in function.retreating for v in self._variables(context, function, [source], target)]
         self.lp.row([(1, v) for v in back] + [(-fact.at_most, self.entries[context])], 0)
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A linked image: its function symbols, and the bytes that do not change while it runs."""
 
+import re
 import subprocess
 
 from elftools.common.exceptions import ELFError
@@ -8,7 +9,8 @@ from elftools.elf.elffile import ELFFile
 
 from .refusal import Refusal
 
-WRITABLE, ALLOCATED, PLAIN, FUNCTION, UNTYPED = 1, 2, "SHT_PROGBITS", "STT_FUNC", "STT_NOTYPE"
+WRITABLE, ALLOCATED, PLAIN = 1, 2, "SHT_PROGBITS"
+FUNCTION, OBJECT, UNTYPED = "STT_FUNC", "STT_OBJECT", "STT_NOTYPE"
 
 
 class Image:
@@ -28,19 +30,26 @@ class Image:
         table = elf.get_section_by_name(".symtab")
         if table is None:
             raise Refusal(f"{self.path}: no symbols: link it without --strip-all")
-        self.functions, self.labels = [], []  # (mangled name, address, size), (name, address)
+        self.functions, self.labels, self.objects = [], [], []  # (mangled name, address, size), (name, address) of both others
         for symbol in table.iter_symbols():
             if symbol["st_shndx"] == "SHN_UNDEF":
                 continue
             address = symbol["st_value"] & ~1
             if symbol["st_info"]["type"] == FUNCTION:
                 self.functions.append((symbol.name, address, symbol["st_size"]))
+            elif symbol["st_info"]["type"] == OBJECT:
+                self.objects.append((symbol.name, symbol["st_value"]))
             elif symbol["st_info"]["type"] == UNTYPED and symbol.name and not symbol.name.startswith("$"):
                 self.labels.append((symbol.name, address))
         self.is_armv8_1m = "v8.1-M" in self._attributes()
 
     def _attributes(self):
         return subprocess.run(["arm-none-eabi-readelf", "-A", self.path], check=True, capture_output=True, text=True).stdout
+
+    def object(self, mangled_pattern):
+        """The address of the one object whose mangled name matches, or None."""
+        found = {address for name, address in self.objects if re.search(mangled_pattern, name)}
+        return found.pop() if len(found) == 1 else None
 
     def bytes_at(self, address, size):
         """Constant bytes, or None where the image may write."""

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/images/directed_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/gated_node.hpp"
+#include "tests/images/instruction_counter.hpp"
+#include "tests/images/step_search.hpp"
+#include "tests/loop/bench/consent.hpp"
+#include "tests/policy/synthetic_policy.hpp"
+
+namespace striker::images {
+
+namespace {
+
+using policy::SmallRandom;
+
+constexpr std::uint32_t picture_ticks = 50;
+constexpr std::uint32_t arming_tick = 159;       // granted in the next one, when a status is due
+constexpr std::uint32_t early_ball_tick = 985;   // of the picture whose poses come last
+constexpr std::uint32_t last_tick = 1000;        // every period of the message table divides it
+
+// A node that is armed and has decided for a while, and what sends to it.
+struct Stage {
+  loop::GatedNode<loop::BuiltInNode> node{loop::built_in_robot};
+  std::int32_t picture = 0;
+  can::SendCounter wheels, pose, ball;
+  loop::BenchOperator operators;
+  can::FrameList sent;
+};
+
+struct Frames {
+  std::array<can::Frame, most_frames_a_tick> all{};
+  std::size_t count = 0;
+  void add(const can::Frame& frame) { all[count++] = frame; }
+  [[nodiscard]] std::span<const can::Frame> span() const { return std::span(all).first(count); }
+};
+
+void add_wheels(Stage& stage, SmallRandom& random, Frames& frames) {
+  frames.add(can::send(can::WheelState{.left_mm_s = random.within(40), .right_mm_s = random.within(40)}, stage.wheels));
+}
+
+void add_pose(Stage& stage, SmallRandom& random, Frames& frames) {
+  frames.add(can::send(can::VisionPose{.frame = stage.picture,
+                                       .x_quarter_mm = random.within(40),
+                                       .y_quarter_mm = random.within(40),
+                                       .heading = random.within(400)},
+                       stage.pose));
+}
+
+// It rolls: a ball at rest has no direction to compute.
+void add_ball(Stage& stage, Frames& frames) {
+  const std::int32_t way_quarter_mm = 200 * (stage.picture % 2);
+  frames.add(can::send(can::VisionBall{.frame = stage.picture, .x_quarter_mm = 2000 + way_quarter_mm, .y_quarter_mm = way_quarter_mm},
+                       stage.ball));
+}
+
+void go_on(Stage& stage, SmallRandom& random, std::uint32_t tick) {
+  Frames frames;
+  add_wheels(stage, random, frames);
+  if (tick % picture_ticks == 0 || tick == early_ball_tick) {
+    stage.picture = (stage.picture + 1) & 0xF;
+    add_ball(stage, frames);
+  }
+  if (tick % picture_ticks == 0) {
+    add_pose(stage, random, frames);
+  }
+  if (tick == arming_tick) {
+    frames.add(stage.operators.command(can::Mode::arm));
+  }
+  if (const auto confirmation = stage.operators.answer(std::as_const(stage.sent).frames())) {
+    frames.add(*confirmation);
+  }
+  stage.node.step({.number = tick, .frames = frames.span()}, stage.sent);
+}
+
+// The timer's counts of the last step.
+std::uint32_t finish(Stage stage, SmallRandom& random) {
+  Frames frames;
+  const std::uint32_t kind = random.bits();
+  if ((kind & 1U) != 0) {
+    add_wheels(stage, random, frames);
+  }
+  if ((kind & 2U) != 0) {
+    frames.add(stage.operators.command(can::Mode::arm));  // makes a challenge, though it is armed
+  }
+  while (frames.count < frames.all.size()) {
+    add_pose(stage, random, frames);
+  }
+  const loop::Tick tick{.number = last_tick, .frames = frames.span()};
+  restart_counter();
+  stage.node.step(tick, stage.sent);
+  return counted() + 1;
+}
+
+}  // namespace
+
+std::uint32_t longest_directed_step(std::uint32_t tries, std::uint32_t seed) {
+  constexpr std::uint32_t finishes = 20;  // of one stage
+  const CounterUnit unit = counter_unit();
+  SmallRandom random(seed);
+  std::uint32_t longest = 0;
+  Stage stage;
+  for (std::uint32_t i = 0; i < tries; ++i) {
+    if (i % finishes == 0) {
+      stage = Stage{};
+      for (std::uint32_t tick = 0; tick < last_tick; ++tick) {
+        go_on(stage, random, tick);
+      }
+    }
+    longest = std::max(longest, finish(stage, random));
+  }
+  return static_cast<std::uint32_t>((std::uint64_t{longest} * unit.instructions + unit.counts - 1) / unit.counts);
+}
+
+}  // namespace striker::images
