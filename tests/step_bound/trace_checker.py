@@ -2,6 +2,7 @@
 """Follows what really ran through the graph that a bound was proved on. Every difference is a contradiction: an edge that is not there
 or was held infeasible, a loop that turns too often, a fact that does not hold, a call that is longer than its bound."""
 
+import functools
 from collections import Counter
 from typing import NamedTuple
 
@@ -118,7 +119,7 @@ class Checker:
         calls = {context: n for (context, source, _), n in edges.items() if source is None}
         self._check_facts(calls)
         for context in calls:
-            self._check_loops(context, edges, calls[context])
+            self._check_loops(context, edges, calls[context], calls)
         if instructions > self.longest:
             self.longest, self.longest_edges = instructions, dict(edges)
 
@@ -126,16 +127,21 @@ class Checker:
         for fact in self.bound.facts:
             if fact.kind == "calls":
                 total = sum(n for context, n in calls.items() if self._covers(fact, context))
-                if total > fact.at_most:
+                if total > fact.at_most + self._allowance(fact, calls):
                     raise Contradiction(f"the fact {fact.name}: {total} calls, not {fact.at_most}")
 
-    def _covers(self, fact, context, memory={}):
-        key = (id(self), fact.name, context)
-        if key not in memory:
-            memory[key] = fact.covers(self.bound.chain(context))
-        return memory[key]
+    def _allowance(self, fact, calls):
+        return sum(n for context, n in calls.items() if self._allows(fact, context)) if fact is not None and fact.plus else 0
 
-    def _check_loops(self, context, edges, calls):
+    @functools.cache
+    def _covers(self, fact, context):
+        return fact.covers(self.bound.chain(context))
+
+    @functools.cache
+    def _allows(self, fact, context):
+        return fact.allows_one_more(self.bound.chain(context))
+
+    def _check_loops(self, context, edges, calls, all_calls):
         function = self.bound.program.functions[self.findings.contexts[context]]
         for loop in function.loops:
             back = sum(edges.get((context, latch, loop.head), 0) for latch in loop.latches)
@@ -143,11 +149,11 @@ class Checker:
                 continue
             entering = sum(edges.get((context, source, loop.head), 0) for source in function.predecessors[loop.head]
                            if source not in loop.body) + (calls if loop.head == function.start else 0)
-            turns = self.bound.turns[(context, loop.head)]
-            if back > turns * entering:
+            turns, fact = self.bound.turns[(context, loop.head)]
+            if back > turns * entering + self._allowance(fact, all_calls):
                 raise Contradiction(f"{function.name}: the loop at {loop.head:#x} turned {back} times in {entering} entries, not {turns}")
             self.most_turns[(context, loop.head)] = max(self.most_turns.get((context, loop.head), 0), -(-back // entering))
         if function.retreating:
             back = sum(edges.get((context, source, target), 0) for source, target in function.retreating)
-            if back > self.bound.turns[(context, function.start)] * calls:
+            if back > self.bound.turns[(context, function.start)][0] * calls:
                 raise Contradiction(f"{function.name} went back {back} times in {calls} calls")

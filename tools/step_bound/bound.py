@@ -10,6 +10,12 @@ def instructions(block):
     return len(block.instructions)
 
 
+def turns_of(bodies, function, loop):
+    """The body runs once before each turn back where the test stands at its end; where it stands elsewhere, before the first too."""
+    tests = [source for source, _ in loop.exits(function)]
+    return bodies - (1 if tests == loop.latches else 0)
+
+
 class Bound:
     """`block_cost(block)`; `edge_cost(block, kind)` where a taken branch costs more."""
 
@@ -20,10 +26,13 @@ class Bound:
         self.edges = {}    # (context, block, successor, kind) -> variable
         self.entries = {}  # context -> variable: how often it is called
         self.into = {}     # (context, block) -> variables: how often it runs
-        self.turns = {}    # (context, head): how often a loop turns back at most, for one entry
+        self.turns = {}    # (context, head): how often a loop turns back at most for one entry, by which fact if any
+        self.open_loops = []
         self.used_facts, self.unbounded = set(), []
         self._add_context((), root, None)
         self._add_call_facts()
+        for back, entering, turns, fact in self.open_loops:
+            self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering] + self._allowance(fact), 0)
         if self.unbounded:
             raise Refusal("no bound, and no fact: " + "; ".join(sorted(set(self.unbounded))))
         (self.total, self.values), self.is_whole = self.lp.maximum()
@@ -90,13 +99,18 @@ class Bound:
         back = self._variables(context, function, set(loop.latches), loop.head)
         if not entering or not back:
             return
-        turns = self.findings.turns.get((context, loop.head))
+        turns, fact = self.findings.turns.get((context, loop.head)), None
         if turns is None:
-            turns = self._turns_by_fact(context, function, loop)
-            if turns is None:
+            fact = self._fact("loop", context)
+            if fact is None:
+                self.unbounded.append(f"{function.name}: the loop at {loop.head:#x}")
                 return
-        self.turns[(context, loop.head)] = turns
-        self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering], 0)
+            turns = turns_of(fact.at_most, function, loop)
+        self.turns[(context, loop.head)] = turns, fact
+        if fact is not None and fact.plus:
+            self.open_loops.append((back, entering, turns, fact))
+        else:
+            self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering], 0)
         if self.findings.turns.get((context, loop.head)) is None:
             return
         for edge, passes in self.findings.passes.get((context, loop.head), {}).items():
@@ -112,21 +126,12 @@ class Bound:
                 product *= (self.findings.turns.get((context, inner.head)) or 0) + 1
         return product
 
-    def _turns_by_fact(self, context, function, loop):
-        fact = self._fact("loop", context)
-        if fact is None:
-            self.unbounded.append(f"{function.name}: the loop at {loop.head:#x}")
-            return None
-        # The body runs once before each turn back where the test stands at its end; where it stands elsewhere, before the first too.
-        ends_by_test = [source for source, _ in loop.exits(function)]
-        return fact.at_most - (1 if ends_by_test == loop.latches else 0)
-
     def _bound_irreducible(self, context, function):
         fact = self._fact("back", context)
         if fact is None:
             self.unbounded.append(f"{function.name}: an irreducible loop at {function.retreating[0][1]:#x}")
             return
-        self.turns[(context, function.start)] = fact.at_most
+        self.turns[(context, function.start)] = fact.at_most, fact
         back = [v for source, target in function.retreating for v in self._variables(context, function, [source], target)]
         self.lp.row([(1, v) for v in back] + [(-fact.at_most, self.entries[context])], 0)
 
@@ -142,4 +147,7 @@ class Bound:
                 meant = [variable for context, variable in self.entries.items() if fact.covers(self.chain(context))]
                 if meant:
                     self.used_facts.add(fact.name)
-                    self.lp.row([(1, variable) for variable in meant], fact.at_most)
+                    self.lp.row([(1, variable) for variable in meant] + self._allowance(fact), fact.at_most)
+
+    def _allowance(self, fact):
+        return [(-1, variable) for context, variable in self.entries.items() if fact.allows_one_more(self.chain(context))]

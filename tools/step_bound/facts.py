@@ -8,7 +8,7 @@
     because = "..."
     proved_by = "StepFacts.OneInference"  # a test, or "trace": every traced step is held to it
 
-Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
+`plus`, chains too, lets there be one more for each call of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
 `back`, an irreducible function goes back at most so often in one call.
 """
 
@@ -22,20 +22,25 @@ from .refusal import Refusal
 
 KINDS = ("calls", "loop", "back")
 FIELDS = {"at_most", "because", "proved_by"}
+OPTIONAL = {"plus"}
 
 
-@dataclass
+@dataclass(eq=False)
 class Fact:
     name: str
     kind: str
     chains: list   # of patterns
     at_most: int
+    plus: list     # of patterns
     because: str
     proved_by: str
 
     def covers(self, chain):
         """Whether a chain of functions' names, from the root, is one of those meant."""
         return any(matches(pattern, chain) for pattern in self.chains)
+
+    def allows_one_more(self, chain):
+        return any(matches(pattern, chain) for pattern in self.plus)
 
 
 def matches(pattern, chain):
@@ -51,6 +56,10 @@ def matches(pattern, chain):
 
 def is_named(function, pattern):
     return fnmatch.fnmatchcase(plain_name(function), pattern) if "<" in pattern else short_name(function) == pattern
+
+
+def parse_chains(value):
+    return [parse_chain(chain) for chain in ([value] if isinstance(value, str) else value)]
 
 
 def parse_chain(text):
@@ -72,7 +81,7 @@ def read_facts(path, parameters):
 
 def _fact(path, name, fields, parameters):
     kinds = [kind for kind in KINDS if kind in fields]
-    unknown = set(fields) - FIELDS - set(KINDS)
+    unknown = set(fields) - FIELDS - OPTIONAL - set(KINDS)
     if len(kinds) != 1 or unknown or FIELDS - set(fields):
         raise Refusal(f"{path}: [{name}]: one of {', '.join(KINDS)}, and {', '.join(sorted(FIELDS))}, but not "
                       f"{', '.join(sorted(unknown)) or 'less'}")
@@ -81,6 +90,5 @@ def _fact(path, name, fields, parameters):
         if at_most not in parameters:
             raise Refusal(f"{path}: [{name}]: at_most = '{at_most}' is no number, and none of {', '.join(parameters)}")
         at_most = parameters[at_most]
-    chains = fields[kinds[0]]
-    chains = [chains] if isinstance(chains, str) else chains
-    return Fact(name, kinds[0], [parse_chain(chain) for chain in chains], at_most, fields["because"], fields["proved_by"])
+    return Fact(name, kinds[0], parse_chains(fields[kinds[0]]), at_most, parse_chains(fields.get("plus", [])),
+                fields["because"], fields["proved_by"])
