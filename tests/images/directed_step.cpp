@@ -21,7 +21,10 @@ namespace {
 using policy::SmallRandom;
 
 constexpr std::uint32_t picture_ticks = 50;
-constexpr std::uint32_t arming_tick = 199;       // granted in the next one, when a status is due; whole windows of 16 ticks later
+// Granted in the next one, when a status is due. Wheels are judged in windows of 16 ticks from the first wheel state on:
+// without the next one the last tick ends such a window.
+constexpr std::uint32_t arming_tick = 149;
+constexpr std::uint32_t without_wheels_tick = arming_tick + 2;
 constexpr std::uint32_t early_ball_tick = 985;   // of the picture whose poses come last
 // Three wheel states are lost now and then: the receiver forgives that, and the gate believes none in between. At the end
 // it has believed none for too long, and stops the command.
@@ -56,10 +59,12 @@ void add_pose(Stage& stage, SmallRandom& random, Frames& frames) {
                        stage.pose));
 }
 
-// It rolls: a ball at rest has no direction to compute.
+// It rolls, as a ball at rest has no direction to compute, and on the right: the policy mirrors that.
 void add_ball(Stage& stage, Frames& frames) {
   const std::int32_t way_quarter_mm = 200 * (stage.picture % 2);
-  frames.add(can::send(can::VisionBall{.frame = stage.picture, .x_quarter_mm = 2000 + way_quarter_mm, .y_quarter_mm = way_quarter_mm},
+  frames.add(can::send(can::VisionBall{.frame = stage.picture,
+                                       .x_quarter_mm = 2000 + way_quarter_mm,
+                                       .y_quarter_mm = -2000 - way_quarter_mm},
                        stage.ball));
 }
 
@@ -68,7 +73,9 @@ void go_on(Stage& stage, SmallRandom& random, std::uint32_t tick) {
   if (tick == first_gap_tick || tick == first_gap_tick + 11 || tick == first_gap_tick + 22) {
     stage.wheels.next = (stage.wheels.next + 3U) % can::counter_modulus;
   }
-  add_wheels(stage, random, frames);
+  if (tick != without_wheels_tick) {
+    add_wheels(stage, random, frames);
+  }
   if (tick % picture_ticks == 0 || tick == early_ball_tick) {
     stage.picture = (stage.picture + 1) & 0xF;
     add_ball(stage, frames);
@@ -95,8 +102,10 @@ std::uint32_t finish(Stage stage, SmallRandom& random) {
   if ((kind & 2U) != 0) {
     frames.add(stage.operators.command(can::Mode::arm));  // makes a challenge, though it is armed
   }
-  while (frames.count < frames.all.size()) {
+  // Each is older than the one before it, which the receiver has to tell from a silence.
+  for (std::uint8_t age_ms = 0; frames.count < frames.all.size(); ++age_ms) {
     add_pose(stage, random, frames);
+    frames.all[frames.count - 1].age_ms = age_ms;
   }
   const loop::Tick tick{.number = last_tick, .frames = frames.span()};
   restart_counter();
@@ -115,6 +124,10 @@ std::uint32_t longest_directed_step(std::uint32_t tries, std::uint32_t seed) {
   for (std::uint32_t i = 0; i < tries; ++i) {
     if (i % finishes == 0) {
       stage = Stage{};
+      // The check of the weights goes on with every step: a tick that comes again moves it alone.
+      for (std::uint32_t again = 0; again < i / finishes % 4; ++again) {
+        stage.node.step({.number = 0}, stage.sent);
+      }
       for (std::uint32_t tick = 0; tick < last_tick; ++tick) {
         go_on(stage, random, tick);
       }
