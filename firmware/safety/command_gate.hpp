@@ -191,7 +191,8 @@ class CommandGate {
     return {};
   }
 
-  core::DriveCommand limited(const core::DriveCommand& wanted) {
+  // Apart: a step limits a command or recodes it, which bounds it (tools/step_bound/facts.toml).
+  [[gnu::noinline]] core::DriveCommand limited(const core::DriveCommand& wanted) {
     return {
         .torque = {limited(wanted.torque.left_mNm, torque_.left_mNm),
                    limited(wanted.torque.right_mNm, torque_.right_mNm)},

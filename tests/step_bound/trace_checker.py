@@ -126,7 +126,7 @@ class Checker:
     def _check_facts(self, calls):
         for fact in self.bound.facts:
             if fact.kind == "calls":
-                total = sum(n for context, n in calls.items() if self._covers(fact, context))
+                total = sum(n * self._covers(fact, context) for context, n in calls.items())
                 if total > fact.at_most + self._allowance(fact, calls):
                     raise Contradiction(f"the fact {fact.name}: {total} calls, not {fact.at_most}")
 

@@ -64,8 +64,8 @@ def main():
     parser.add_argument("--compare", action="store_true")
     arguments = parser.parse_args()
     board = qemu_image.read_board(arguments.boards, arguments.board)
-    found = analysis.Analysis(arguments.image)
-    bound = found.bound(late=arguments.late)
+    found = analysis.Analysis(arguments.image, late=arguments.late)
+    bound = found.bound()
     longest = 0
     for words in (["search", arguments.search, "seed", 3], ["directed", arguments.directed]):
         if not words[1]:

@@ -31,8 +31,10 @@ class Findings:
 
 
 class Execution:
-    def __init__(self, program):
-        self.program = program
+    """`known_words`: (function, register, offset, value): what stands in memory whenever the function is called, and does not change."""
+
+    def __init__(self, program, known_words=()):
+        self.program, self.known_words = program, known_words
         self.semantics = Semantics(program.image)
         self.findings = Findings()
         self.loop_names = {}
@@ -44,6 +46,7 @@ class Execution:
         self.findings.contexts[context] = start
         entry = state.copy()
         entry.flags = None
+        self._learn(function, entry)
         if function.retreating:
             return self._skip(function, entry, context)
         leaving, _ = self._run_region(function, None, function.start, entry, context)
@@ -58,6 +61,12 @@ class Execution:
         after.put("lr", None)
         after.flags = None
         return after
+
+    def _learn(self, function, state):
+        for name, register, offset, value in self.known_words:
+            base = state.registers.get(register)
+            if short_name(function.name) == name and isinstance(base, Pointer):
+                state.stack[(base.base, base.offset + offset, 4)] = value
 
     def _skip(self, function, entry, context):
         """An irreducible function, as libgcc's division on Armv6-M: taken for one that keeps to the calling convention."""
@@ -184,12 +193,12 @@ def insn_decides(block):
     return block.last.operation in ("b", "bx", "cbz", "cbnz", "le", "letp", "tbb", "tbh")
 
 
-def run(program, root):
+def run(program, root, known_words=()):
     """What the root's call can do, whatever its arguments: pointers to objects, aligned to 4."""
     registers = {STACK: Pointer(STACK, 0, True)}
     registers |= {register: Pointer(f"argument {register}", 0, True) for register in POINTER_ARGUMENTS}
     registers |= {f"r{i}": Pointer(f"caller's r{i}", 0, False) for i in range(4, 12)}
-    execution = Execution(program)
+    execution = Execution(program, known_words)
     execution.call(root, State(registers), ())
     return execution.findings
 

@@ -22,15 +22,19 @@ def accesses_of(block):
 
 
 class Analysis:
-    def __init__(self, path, root=STEP):
+    """Of one image, for a robot whose commands are `late`, or act at once."""
+
+    def __init__(self, path, root=STEP, late=True, facts=FACTS):
         self.program = Program(Image(path))
         self.root = self.program.find(root)
         self.reachable = self.program.reachable(self.root)
-        self.findings = abstract_execution.run(self.program, self.root)
+        self.late, self.facts = late, facts
+        words = [(fact.chains[0][0][0], "r0", fact.offset, fact.at_most) for fact in self._read_facts(0) if fact.kind == "word"]
+        self.findings = abstract_execution.run(self.program, self.root, words)
 
-    def parameters(self, frames, late):
-        """What facts may name instead of a number."""
-        return {"frames": frames, "late": 2 if late else 0, "weights_slice": self._weights_slice()}
+    def _read_facts(self, frames):
+        parameters = {"frames": frames, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
+        return read_facts(self.facts, parameters)
 
     def _weights_slice(self):
         """WeightsCheck::words_a_tick, from the words that the image says it has."""
@@ -38,9 +42,9 @@ class Analysis:
         words = sum(self.program.image.constant(address + 4 * layer) for layer in range(3)) if address is not None else 0
         return (words + PASS_TICKS - 4) // (PASS_TICKS - 3)
 
-    def bound(self, frames=24, late=True, facts=FACTS, cpu=None):
+    def bound(self, frames=24, cpu=None):
         """In instructions, or in cycles of `cpu`."""
-        read = read_facts(facts, self.parameters(frames, late))
+        read = self._read_facts(frames)
         if cpu is None:
             return Bound(self.program, self.root, self.findings, read)
         if cpu not in TABLES:
@@ -48,9 +52,9 @@ class Analysis:
         cycles = Cycles(cpu)
         return Bound(self.program, self.root, self.findings, read, cycles.block, cycles.edge)
 
-    def accesses(self, frames, late, facts):
+    def accesses(self, frames):
         """Fetches and accesses to memory, of a word or less each, that a step makes at most."""
-        return Bound(self.program, self.root, self.findings, read_facts(facts, self.parameters(frames, late)), accesses_of).total
+        return Bound(self.program, self.root, self.findings, self._read_facts(frames), accesses_of).total
 
     def worst_path(self, bound):
         """[(cost, calls, function)] of the path that the bound is for, the costliest first."""

@@ -144,10 +144,10 @@ class Bound:
     def _add_call_facts(self):
         for fact in self.facts:
             if fact.kind == "calls":
-                meant = [variable for context, variable in self.entries.items() if fact.covers(self.chain(context))]
+                meant = [(weight, variable) for context, variable in self.entries.items() if (weight := fact.covers(self.chain(context)))]
                 if meant:
                     self.used_facts.add(fact.name)
-                    self.lp.row([(1, variable) for variable in meant] + self._allowance(fact), fact.at_most)
+                    self.lp.row(meant + self._allowance(fact), fact.at_most)
 
     def _allowance(self, fact):
         return [(-1, variable) for context, variable in self.entries.items() if fact.allows_one_more(self.chain(context))]

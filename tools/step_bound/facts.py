@@ -2,14 +2,15 @@
 """Flow facts: what the machine code alone does not show, by name, each with the test that proves it.
 
     [one-inference]                       # a name that reports and tests use
-    calls = ["infer"]                     # chains of calls, all of them together: "A > B": B called by A; "A >> B": B somewhere
+    calls = ["infer"]                     # chains of calls, all of them together (one that stands here twice counts double): "A > B": B called by A; "A >> B": B somewhere
                                           # below A; "f<*T*>" with a template's arguments
     at_most = 1                           # in one call of the root; a number, or a parameter such as "frames"
     because = "..."
     proved_by = "StepFacts.OneInference"  # a test, or "trace": every traced step is held to it
 
 `plus`, chains too, lets there be one more for each call of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
-`back`, an irreducible function goes back at most so often in one call.
+`back`, an irreducible function goes back at most so often in one call; `word`, a function, `offset` bytes behind whose first argument a
+word has the value `at_most`, all the time. `when` names a parameter: the fact is left out where that is 0.
 """
 
 import fnmatch
@@ -20,9 +21,9 @@ from dataclasses import dataclass
 from .functions import plain_name, short_name
 from .refusal import Refusal
 
-KINDS = ("calls", "loop", "back")
+KINDS = ("calls", "loop", "back", "word")
 FIELDS = {"at_most", "because", "proved_by"}
-OPTIONAL = {"plus"}
+OPTIONAL = {"plus", "offset", "when"}
 
 
 @dataclass(eq=False)
@@ -34,10 +35,11 @@ class Fact:
     plus: list     # of patterns
     because: str
     proved_by: str
+    offset: int = 0
 
     def covers(self, chain):
-        """Whether a chain of functions' names, from the root, is one of those meant."""
-        return any(matches(pattern, chain) for pattern in self.chains)
+        """How often a chain of functions' names, from the root, is among those meant: each counts."""
+        return sum(matches(pattern, chain) for pattern in self.chains)
 
     def allows_one_more(self, chain):
         return any(matches(pattern, chain) for pattern in self.plus)
@@ -76,7 +78,8 @@ def read_facts(path, parameters):
             table = tomllib.load(file)
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise Refusal(f"{path}: {error}") from error
-    return [_fact(path, name, fields, parameters) for name, fields in table.items()]
+    facts = [_fact(path, name, fields, parameters) for name, fields in table.items()]
+    return [fact for fact, fields in zip(facts, table.values()) if parameters.get(fields.get("when"), 1)]
 
 
 def _fact(path, name, fields, parameters):
@@ -91,4 +94,4 @@ def _fact(path, name, fields, parameters):
             raise Refusal(f"{path}: [{name}]: at_most = '{at_most}' is no number, and none of {', '.join(parameters)}")
         at_most = parameters[at_most]
     return Fact(name, kinds[0], parse_chains(fields[kinds[0]]), at_most, parse_chains(fields.get("plus", [])),
-                fields["because"], fields["proved_by"])
+                fields["because"], fields["proved_by"], fields.get("offset", 0))

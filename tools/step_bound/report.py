@@ -9,20 +9,20 @@ SHOWN_FUNCTIONS = 25
 TICK_US = 1_000
 
 
-def measure(analysis, path, cpu, frames, late, facts):
+def measure(analysis, path, cpu, frames):
     """Everything there is to say of an image, for JSON."""
-    bound = analysis.bound(frames, late, facts)
-    report = {"image": path, "cpu": cpu, "frames": frames, "delayed_commands": late, **analysis.summary(),
+    bound = analysis.bound(frames)
+    report = {"image": path, "cpu": cpu, "frames": frames, "delayed_commands": analysis.late, **analysis.summary(),
               "instructions": bound.total, "is_whole": bound.is_whole,
-              "by_frames": {str(n): analysis.bound(n, late, facts).total for n in FRAMES_A_TICK},
+              "by_frames": {str(n): analysis.bound(n).total for n in FRAMES_A_TICK},
               "worst_path": [{"instructions": cost, "calls": calls, "function": name}
                              for cost, calls, name in analysis.worst_path(bound)],
-              "facts": {fact.name: fact.proved_by for fact in bound.facts if fact.name in bound.used_facts}}
+              "facts": {fact.name: fact.proved_by for fact in bound.facts if fact.name in bound.used_facts or fact.kind == "word"}}
     if cpu is None:
         report["no_cycles"] = "the processor is not named: --cpu"
     else:
         try:
-            report["cycles"] = analysis.bound(frames, late, facts, cpu).total
+            report["cycles"] = analysis.bound(frames, cpu).total
             report["cycles_by"] = TABLES[cpu]
         except Refusal as refusal:
             report["no_cycles"] = str(refusal)
@@ -33,8 +33,7 @@ def add_time(report, analysis, arguments):
     """The step's share of a tick, where every fetch and every access to memory waits."""
     if "cycles" not in report:
         return
-    waits = arguments.wait_states and arguments.wait_states * analysis.accesses(
-        report["frames"], report["delayed_commands"], arguments.facts)
+    waits = arguments.wait_states and arguments.wait_states * analysis.accesses(report["frames"])
     cycles = report["cycles"] + waits
     us = cycles / arguments.clock_mhz
     report["time"] = {"clock_mhz": arguments.clock_mhz, "wait_states": arguments.wait_states, "cycles": cycles, "us": us,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The registers, flags and stack words that the abstract execution knows at one place.
 
-Memory is kept for the stack alone. Assumed of the code: a store through an address that is not derived from the stack pointer
+Memory is kept for the stack alone, and for words that a fact says do not change. Assumed of the code: a store through an address that is not derived from the stack pointer
 does not change a known stack word. A name stands for one value at a time: whoever gives it anew calls `forget` first.
 """
 
@@ -67,7 +67,7 @@ class State:
         if not isinstance(address, Pointer) or not is_stack(address.base):
             return
         written = extent(address.base, address.offset, size)
-        for base, offset, width in list(self.stack):
+        for base, offset, width in [place for place in self.stack if is_stack(place[0])]:
             apart = base == address.base and not may_overlap((offset, offset + width), (address.offset, address.offset + size))
             if not apart and may_overlap(written, extent(base, offset, width)):
                 del self.stack[(base, offset, width)]
