@@ -93,7 +93,8 @@ class E2eSequence {
     judge(limits);
   }
 
-  void forget() {
+  // Rare, and apart: how often a step comes here at most bounds it (tools/step_bound/facts.toml).
+  [[gnu::noinline]] void forget() {
     window_ = 0;
     follows_ = false;
     state_ = state_ == E2eState::no_data ? E2eState::no_data : E2eState::init;

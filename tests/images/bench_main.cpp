@@ -2,10 +2,10 @@
 // The measuring image, for QEMU with semihosting and `-icount shift=0`: instructions of the network and of
 // `step`.
 //
-//   striker-bench [inputs N] [plain N] [recording FILE] [ticks N] [search N] [seed N]
+//   striker-bench [inputs N] [plain N] [recording FILE] [ticks N] [search N] [directed N] [seed N]
 //
 // Prints "name number" lines for tools/bench-kernel. Every count is exact, from the first instruction of the
-// counted function to its return, but those of the search, which are exact to a count of the timer.
+// counted function to its return, but those of the search and the directed step, which are exact to a count of the timer.
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -20,6 +20,7 @@
 #include "firmware/policy/network.hpp"
 #include "firmware/ports/bare_metal/memory.hpp"
 #include "tests/images/console.hpp"
+#include "tests/images/directed_step.hpp"
 #include "tests/images/instruction_counter.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/images/step_search.hpp"
@@ -201,6 +202,10 @@ int main() {
     images::console::print_line("search steps", steps);
     images::console::print_line("search decisions", found.decisions);
     images::console::print_line("search max", found.greatest_instructions);
+  }
+  if (const std::uint32_t tries = images::console::argument("directed", 0); tries > 0) {
+    images::console::print_line("directed max",
+                                images::longest_directed_step(tries, images::console::argument("seed", 1)));
   }
   images::console::print_line("stack high water", bare_metal::stack_high_water_bytes());
   images::console::exit(0);

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/images/directed_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/gated_node.hpp"
+#include "tests/images/instruction_counter.hpp"
+#include "tests/images/step_search.hpp"
+#include "tests/loop/bench/consent.hpp"
+#include "tests/policy/synthetic_policy.hpp"
+
+namespace striker::images {
+
+namespace {
+
+using policy::SmallRandom;
+
+constexpr std::uint32_t picture_ticks = 50;
+// Granted in the next one, when a status is due. Wheels are judged in windows of 16 ticks from the first wheel state on:
+// without the next one the last tick ends such a window.
+constexpr std::uint32_t arming_tick = 149;
+constexpr std::uint32_t without_wheels_tick = arming_tick + 2;
+constexpr std::uint32_t early_ball_tick = 985;   // of the picture whose poses come last
+// Three wheel states are lost now and then: the receiver forgives that, and the gate believes none in between. At the end
+// it has believed none for too long, and stops the command.
+constexpr std::uint32_t first_gap_tick = 975;
+constexpr std::uint32_t last_tick = 1000;        // every period of the message table divides it
+
+// A node that is armed and has decided for a while, and what sends to it.
+struct Stage {
+  loop::GatedNode<loop::BuiltInNode> node{loop::built_in_robot};
+  std::int32_t picture = 0;
+  can::SendCounter wheels, pose, ball;
+  loop::BenchOperator operators;
+  can::FrameList sent;
+};
+
+struct Frames {
+  std::array<can::Frame, most_frames_a_tick> all{};
+  std::size_t count = 0;
+  void add(const can::Frame& frame) { all[count++] = frame; }
+  [[nodiscard]] std::span<const can::Frame> span() const { return std::span(all).first(count); }
+};
+
+void add_wheels(Stage& stage, SmallRandom& random, Frames& frames) {
+  frames.add(can::send(can::WheelState{.left_mm_s = random.within(40), .right_mm_s = random.within(40)}, stage.wheels));
+}
+
+void add_pose(Stage& stage, SmallRandom& random, Frames& frames) {
+  frames.add(can::send(can::VisionPose{.frame = stage.picture,
+                                       .x_quarter_mm = random.within(40),
+                                       .y_quarter_mm = random.within(40),
+                                       .heading = random.within(400)},
+                       stage.pose));
+}
+
+// It rolls, as a ball at rest has no direction to compute, and on the right: the policy mirrors that.
+void add_ball(Stage& stage, Frames& frames) {
+  const std::int32_t way_quarter_mm = 200 * (stage.picture % 2);
+  frames.add(can::send(can::VisionBall{.frame = stage.picture,
+                                       .x_quarter_mm = 2000 + way_quarter_mm,
+                                       .y_quarter_mm = -2000 - way_quarter_mm},
+                       stage.ball));
+}
+
+void go_on(Stage& stage, SmallRandom& random, std::uint32_t tick) {
+  Frames frames;
+  if (tick == first_gap_tick || tick == first_gap_tick + 11 || tick == first_gap_tick + 22) {
+    stage.wheels.next = (stage.wheels.next + 3U) % can::counter_modulus;
+  }
+  if (tick != without_wheels_tick) {
+    add_wheels(stage, random, frames);
+  }
+  if (tick % picture_ticks == 0 || tick == early_ball_tick) {
+    stage.picture = (stage.picture + 1) & 0xF;
+    add_ball(stage, frames);
+  }
+  if (tick % picture_ticks == 0) {
+    add_pose(stage, random, frames);
+  }
+  if (tick == arming_tick) {
+    frames.add(stage.operators.command(can::Mode::arm));
+  }
+  if (const auto confirmation = stage.operators.answer(std::as_const(stage.sent).frames())) {
+    frames.add(*confirmation);
+  }
+  stage.node.step({.number = tick, .frames = frames.span()}, stage.sent);
+}
+
+// The timer's counts of the last step.
+std::uint32_t finish(Stage stage, SmallRandom& random) {
+  Frames frames;
+  const std::uint32_t kind = random.bits();
+  if ((kind & 1U) != 0) {
+    add_wheels(stage, random, frames);
+  }
+  if ((kind & 2U) != 0) {
+    frames.add(stage.operators.command(can::Mode::arm));  // makes a challenge, though it is armed
+  }
+  // Each is older than the one before it, which the receiver has to tell from a silence.
+  for (std::uint8_t age_ms = 0; frames.count < frames.all.size(); ++age_ms) {
+    add_pose(stage, random, frames);
+    frames.all[frames.count - 1].age_ms = age_ms;
+  }
+  const loop::Tick tick{.number = last_tick, .frames = frames.span()};
+  restart_counter();
+  stage.node.step(tick, stage.sent);
+  return counted() + 1;
+}
+
+}  // namespace
+
+std::uint32_t longest_directed_step(std::uint32_t tries, std::uint32_t seed) {
+  constexpr std::uint32_t finishes = 20;  // of one stage
+  const CounterUnit unit = counter_unit();
+  SmallRandom random(seed);
+  std::uint32_t longest = 0;
+  Stage stage;
+  for (std::uint32_t i = 0; i < tries; ++i) {
+    if (i % finishes == 0) {
+      stage = Stage{};
+      // The check of the weights goes on with every step: a tick that comes again moves it alone.
+      for (std::uint32_t again = 0; again < i / finishes % 4; ++again) {
+        stage.node.step({.number = 0}, stage.sent);
+      }
+      for (std::uint32_t tick = 0; tick < last_tick; ++tick) {
+        go_on(stage, random, tick);
+      }
+    }
+    longest = std::max(longest, finish(stage, random));
+  }
+  return static_cast<std::uint32_t>((std::uint64_t{longest} * unit.instructions + unit.counts - 1) / unit.counts);
+}
+
+}  // namespace striker::images

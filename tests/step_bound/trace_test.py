@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Holds a board's proved bound to real steps: searched and directed ones run on QEMU, each is followed through the graph without a
+contradiction, and the longest of them is within 5 % of the bound."""
+
+import argparse
+import os
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path[:0] = [os.path.join(ROOT, "tools"), os.path.join(ROOT, "tests", "ports")]
+sys.dont_write_bytecode = True
+
+import qemu_image  # noqa: E402
+import qemu_trace  # noqa: E402
+from step_bound import analysis  # noqa: E402
+from step_bound.functions import plain_name  # noqa: E402
+from trace_checker import Checker, Contradiction, Walker  # noqa: E402
+
+GREATEST_RATIO = 1.05
+
+
+def follow(board, image, found, bound, words):
+    checker = Checker(bound)
+    functions = [found.program.functions[start] for start in found.reachable]
+    spans = []
+    for function in functions:
+        addresses = [insn for block in function.blocks.values() for insn in block.instructions]
+        first, last = min(i.address for i in addresses), max(i.next for i in addresses)
+        spans.append((first, last - first))
+    with qemu_trace.traced(board, image, words, spans) as lines:
+        for instructions, edges in Walker(bound, found.root).calls(qemu_trace.blocks(lines, found.program.instructions)):
+            checker.check(instructions, edges)
+    return checker
+
+
+def compare(found, bound, checker):
+    """Where the worst path goes and the longest step did not."""
+    real, program = {}, found.program
+    for (context, source, target), n in checker.longest_edges.items():
+        if target is not None:
+            function = program.functions[found.findings.contexts[context]]
+            name = " > ".join(map(plain_name, bound.chain(context)[1:]))
+            real[name] = real.get(name, 0) + n * len(function.blocks[target].instructions)
+    proved = {}
+    for context, start in found.findings.contexts.items():
+        name = " > ".join(map(plain_name, bound.chain(context)[1:]))
+        proved[name] = proved.get(name, 0) + sum(
+            bound.runs(context, block.start) * len(block.instructions) for block in program.functions[start].blocks.values())
+    for name in sorted(proved, key=lambda n: -abs(proved[n] - real.get(n, 0))):
+        if abs(proved[name] - real.get(name, 0)) > 3:
+            print(f"    proved {proved[name]:8.0f}  ran {real.get(name, 0):8}  {name}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--board", required=True)
+    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser.add_argument("--image", required=True)
+    parser.add_argument("--late", action="store_true", help="the robot's commands are delayed")
+    parser.add_argument("--search", type=int, default=2000)
+    parser.add_argument("--directed", type=int, default=40)
+    parser.add_argument("--compare", action="store_true")
+    arguments = parser.parse_args()
+    board = qemu_image.read_board(arguments.boards, arguments.board)
+    found = analysis.Analysis(arguments.image, late=arguments.late)
+    bound = found.bound()
+    longest = 0
+    for words in (["search", arguments.search, "seed", 3], ["directed", arguments.directed]):
+        if not words[1]:
+            continue
+        try:
+            checker = follow(board, arguments.image, found, bound, words)
+        except Contradiction as contradiction:
+            sys.exit(f"FAILED: {arguments.board}: {' '.join(map(str, words))}: {contradiction}")
+        print(f"ok: {checker.count} steps of {words[0]} without a contradiction, the longest {checker.longest:,} instructions")
+        longest = max(longest, checker.longest)
+    if arguments.compare:
+        compare(found, bound, checker)
+    ratio = bound.total / longest
+    print(f"{'ok' if ratio <= GREATEST_RATIO else 'FAILED'}: proved {bound.total:,}, longest {longest:,}, ratio {ratio:.3f}")
+    sys.exit(0 if ratio <= GREATEST_RATIO else 1)
+
+
+if __name__ == "__main__":
+    main()

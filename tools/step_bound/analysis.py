@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An image's analysis, once, and the bounds that it gives."""
+
+import os
+
+from . import abstract_execution
+from .bound import Bound
+from .cycles import TABLES, Cycles, memory_words
+from .facts import read_facts
+from .functions import Program, plain_name, short_name
+from .image import Image
+from .refusal import Refusal
+
+FACTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "facts.toml")
+STEP = r"loop::GatedNode<.*>::step\("
+WEIGHTS = r"WeightsCheck.*layer_words"
+PASS_TICKS = 500  # firmware/policy/weights_check.hpp
+
+
+def accesses_of(block):
+    return sum(1 + memory_words(insn) for insn in block.instructions)
+
+
+class Analysis:
+    """Of one image, for a robot whose commands are `late`, or act at once."""
+
+    def __init__(self, path, root=STEP, late=True, facts=FACTS):
+        self.program = Program(Image(path))
+        self.root = self.program.find(root)
+        self.reachable = self.program.reachable(self.root)
+        self.late, self.facts = late, facts
+        words = [(fact.chains[0][0][0], "r0", fact.offset, fact.at_most) for fact in self._read_facts(0) if fact.kind == "word"]
+        self.findings = abstract_execution.run(self.program, self.root, words)
+
+    def _read_facts(self, frames):
+        parameters = {"frames": frames, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
+        return read_facts(self.facts, parameters)
+
+    def _weights_slice(self):
+        """WeightsCheck::words_a_tick, from the words that the image says it has."""
+        address = self.program.image.object(WEIGHTS)
+        words = sum(self.program.image.constant(address + 4 * layer) for layer in range(3)) if address is not None else 0
+        return (words + PASS_TICKS - 4) // (PASS_TICKS - 3)
+
+    def bound(self, frames=24, cpu=None):
+        """In instructions, or in cycles of `cpu`."""
+        read = self._read_facts(frames)
+        if cpu is None:
+            return Bound(self.program, self.root, self.findings, read)
+        if cpu not in TABLES:
+            raise Refusal(f"Arm publishes no table of instruction timings for {cpu}")
+        cycles = Cycles(cpu)
+        return Bound(self.program, self.root, self.findings, read, cycles.block, cycles.edge)
+
+    def accesses(self, frames):
+        """Fetches and accesses to memory, of a word or less each, that a step makes at most."""
+        return Bound(self.program, self.root, self.findings, self._read_facts(frames), accesses_of).total
+
+    def worst_path(self, bound):
+        """[(cost, calls, function)] of the path that the bound is for, the costliest first."""
+        total = {}
+        for context, start in self.findings.contexts.items():
+            function = self.program.functions[start]
+            name = plain_name(function.name)
+            cost, calls = total.get(name, (0, 0))
+            for block in function.blocks.values():
+                cost += bound.runs(context, block.start) * bound.block_cost(block)
+            total[name] = cost, calls + bound.calls(context)
+        return sorted(((round(cost), round(calls), name) for name, (cost, calls) in total.items() if cost), reverse=True)
+
+    def summary(self):
+        second = self.program.second
+        return {"root": short_name(self.program.symbols[self.root][0]), "functions": len(self.reachable),
+                "loops": sum(len(self.program.functions[start].loops) for start in self.reachable),
+                "contexts": len(self.findings.contexts), "decoded_twice": second.agreed, "decoded_once": second.unknown}

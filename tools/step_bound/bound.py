@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The bound: the most that one call of the root can cost, over every path that the control flow, the loops' bounds and the facts
+allow, in all contexts at once (implicit path enumeration: Li and Malik, 1995)."""
+
+from .linear_program import LinearProgram
+from .refusal import Refusal
+
+
+def instructions(block):
+    return len(block.instructions)
+
+
+def turns_of(bodies, function, loop):
+    """The body runs once before each turn back where the test stands at its end; where it stands elsewhere, before the first too."""
+    tests = [source for source, _ in loop.exits(function)]
+    return bodies - (1 if tests == loop.latches else 0)
+
+
+class Bound:
+    """`block_cost(block)`; `edge_cost(block, kind)` where a taken branch costs more."""
+
+    def __init__(self, program, root, findings, facts, block_cost=instructions, edge_cost=None):
+        self.program, self.findings, self.facts = program, findings, facts
+        self.block_cost, self.edge_cost = block_cost, edge_cost
+        self.lp = LinearProgram()
+        self.edges = {}    # (context, block, successor, kind) -> variable
+        self.entries = {}  # context -> variable: how often it is called
+        self.into = {}     # (context, block) -> variables: how often it runs
+        self.turns = {}    # (context, head): how often a loop turns back at most for one entry, by which fact if any
+        self.open_loops = []
+        self.used_facts, self.unbounded = set(), []
+        self._add_context((), root, None)
+        self._add_call_facts()
+        for back, entering, turns, fact in self.open_loops:
+            self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering] + self._allowance(fact), 0)
+        if self.unbounded:
+            raise Refusal("no bound, and no fact: " + "; ".join(sorted(set(self.unbounded))))
+        (self.total, self.values), self.is_whole = self.lp.maximum()
+
+    def chain(self, context):
+        return [self.program.functions[self.findings.contexts[context[:i]]].name for i in range(len(context) + 1)]
+
+    def runs(self, context, block):
+        return sum(self.values[variable] for variable in self.into.get((context, block), ()))
+
+    def calls(self, context):
+        return self.values[self.entries[context]]
+
+    # ---- the program --------------------------------------------------------------------------------------------------------
+    def _add_context(self, context, start, calling):
+        """`calling`: the variables whose sum is the number of calls; None for the root, which is called once."""
+        function = self.program.functions[start]
+        entry = self.entries[context] = self.lp.variable()
+        self.lp.row([(1, entry)] + [(-1, v) for v in calling or ()], 1 if calling is None else 0, equal=True)
+        into = {start: [] for start in function.blocks}
+        out = {start: [] for start in function.blocks}
+        into[function.start].append(entry)
+        for block in function.blocks.values():
+            for target, kind in block.successors:
+                self._add_edge((context, block.start, target, kind), block, into, out)
+        for block in function.blocks.values():
+            if into[block.start]:
+                self._add_block(context, block, into[block.start], out[block.start])
+        for loop in function.loops:
+            self._bound_loop(context, function, loop)
+        if function.retreating:
+            self._bound_irreducible(context, function)
+
+    def _add_edge(self, edge, block, into, out):
+        if edge not in self.findings.feasible:
+            return
+        variable = self.edges[edge] = self.lp.variable()
+        _, source, target, kind = edge
+        out[source].append(variable)
+        if target is not None:
+            into[target].append(variable)
+        if self.edge_cost is not None:
+            self.lp.costs[variable] += self.edge_cost(block, kind)
+
+    def _add_block(self, context, block, into, out):
+        self.into[(context, block.start)] = into
+        self.lp.row([(1, v) for v in into] + [(-1, v) for v in out], 0, equal=True)
+        cost = self.block_cost(block)
+        for variable in into:
+            self.lp.costs[variable] += cost
+        if block.callee is not None:
+            below = context + (block.last.address,)
+            if below in self.findings.contexts:
+                self._add_context(below, block.callee, into)
+
+    def _variables(self, context, function, sources, target):
+        return [self.edges[edge] for source in sources for successor, kind in function.blocks[source].successors
+                if successor == target and (edge := (context, source, target, kind)) in self.edges]
+
+    # ---- loops --------------------------------------------------------------------------------------------------------------
+    def _bound_loop(self, context, function, loop):
+        entering = self._variables(context, function, [p for p in function.predecessors[loop.head] if p not in loop.body], loop.head)
+        entering += [self.entries[context]] if loop.head == function.start else []
+        back = self._variables(context, function, set(loop.latches), loop.head)
+        if not entering or not back:
+            return
+        turns, fact = self.findings.turns.get((context, loop.head)), None
+        if turns is None:
+            fact = self._fact("loop", context)
+            if fact is None:
+                self.unbounded.append(f"{function.name}: the loop at {loop.head:#x}")
+                return
+            turns = turns_of(fact.at_most, function, loop)
+        self.turns[(context, loop.head)] = turns, fact
+        if fact is not None and fact.plus:
+            self.open_loops.append((back, entering, turns, fact))
+        else:
+            self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering], 0)
+        if self.findings.turns.get((context, loop.head)) is None:
+            return
+        for edge, passes in self.findings.passes.get((context, loop.head), {}).items():
+            variable = self.edges.get((context, *edge))
+            if variable is not None and passes is not None and passes < self._implied_passes(context, function, loop, edge[0]):
+                self.lp.row([(1, variable)] + [(-passes, v) for v in entering], 0)
+
+    def _implied_passes(self, context, function, loop, block):
+        """What the turns of the loops allow by themselves, of `loop` and of those within it around the block."""
+        product = 1
+        for inner in function.loops:
+            if block in inner.body and inner.body <= loop.body:
+                product *= (self.findings.turns.get((context, inner.head)) or 0) + 1
+        return product
+
+    def _bound_irreducible(self, context, function):
+        fact = self._fact("back", context)
+        if fact is None:
+            self.unbounded.append(f"{function.name}: an irreducible loop at {function.retreating[0][1]:#x}")
+            return
+        self.turns[(context, function.start)] = fact.at_most, fact
+        back = [v for source, target in function.retreating for v in self._variables(context, function, [source], target)]
+        self.lp.row([(1, v) for v in back] + [(-fact.at_most, self.entries[context])], 0)
+
+    # ---- facts --------------------------------------------------------------------------------------------------------------
+    def _fact(self, kind, context):
+        found = [fact for fact in self.facts if fact.kind == kind and fact.covers(self.chain(context))]
+        self.used_facts.update(fact.name for fact in found)
+        return min(found, key=lambda fact: fact.at_most) if found else None
+
+    def _add_call_facts(self):
+        for fact in self.facts:
+            if fact.kind == "calls":
+                meant = [(weight, variable) for context, variable in self.entries.items() if (weight := fact.covers(self.chain(context)))]
+                if meant:
+                    self.used_facts.add(fact.name)
+                    self.lp.row(meant + self._allowance(fact), fact.at_most)
+
+    def _allowance(self, fact):
+        return [(-1, variable) for context, variable in self.entries.items() if fact.allows_one_more(self.chain(context))]

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Flow facts: what the machine code alone does not show, by name, each with the test that proves it.
+
+    [one-inference]                       # a name that reports and tests use
+    calls = ["infer"]                     # chains of calls, all of them together (one that stands here twice counts double): "A > B": B called by A; "A >> B": B somewhere
+                                          # below A; "f<*T*>" with a template's arguments
+    at_most = 1                           # in one call of the root; a number, or a parameter such as "frames"
+    because = "..."
+    proved_by = "StepFacts.OneInference"  # a test, or "trace": every traced step is held to it
+
+`plus`, chains too, lets there be one more for each call of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
+`back`, an irreducible function goes back at most so often in one call; `word`, a function, `offset` bytes behind whose first argument a
+word has the value `at_most`, all the time. `when` names a parameter: the fact is left out where that is 0.
+"""
+
+import fnmatch
+import re
+import tomllib
+from dataclasses import dataclass
+
+from .functions import plain_name, short_name
+from .refusal import Refusal
+
+KINDS = ("calls", "loop", "back", "word")
+FIELDS = {"at_most", "because", "proved_by"}
+OPTIONAL = {"plus", "offset", "when"}
+
+
+@dataclass(eq=False)
+class Fact:
+    name: str
+    kind: str
+    chains: list   # of patterns
+    at_most: int
+    plus: list     # of patterns
+    because: str
+    proved_by: str
+    offset: int = 0
+
+    def covers(self, chain):
+        """How often a chain of functions' names, from the root, is among those meant: each counts."""
+        return sum(matches(pattern, chain) for pattern in self.chains)
+
+    def allows_one_more(self, chain):
+        return any(matches(pattern, chain) for pattern in self.plus)
+
+
+def matches(pattern, chain):
+    """`pattern`: (name, whether the function before it calls it itself), from the first to the last."""
+    name, direct = pattern[-1]
+    if not chain or not is_named(chain[-1], name):
+        return False
+    if len(pattern) == 1:
+        return True
+    return matches(pattern[:-1], chain[:-1]) or not direct and any(
+        matches(pattern[:-1], chain[:end]) for end in range(1, len(chain) - 1))
+
+
+def is_named(function, pattern):
+    return fnmatch.fnmatchcase(plain_name(function), pattern) if "<" in pattern else short_name(function) == pattern
+
+
+def parse_chains(value):
+    return [parse_chain(chain) for chain in ([value] if isinstance(value, str) else value)]
+
+
+def parse_chain(text):
+    names, pattern = re.split(r"\s+(>>?)\s+", text.strip()), []
+    for at in range(0, len(names), 2):
+        pattern.append((names[at], at > 0 and names[at - 1] == ">"))
+    return pattern
+
+
+def read_facts(path, parameters):
+    """Of a TOML file; `parameters` are numbers by name."""
+    try:
+        with open(path, "rb") as file:
+            table = tomllib.load(file)
+    except (OSError, tomllib.TOMLDecodeError) as error:
+        raise Refusal(f"{path}: {error}") from error
+    facts = [_fact(path, name, fields, parameters) for name, fields in table.items()]
+    return [fact for fact, fields in zip(facts, table.values()) if parameters.get(fields.get("when"), 1)]
+
+
+def _fact(path, name, fields, parameters):
+    kinds = [kind for kind in KINDS if kind in fields]
+    unknown = set(fields) - FIELDS - OPTIONAL - set(KINDS)
+    if len(kinds) != 1 or unknown or FIELDS - set(fields):
+        raise Refusal(f"{path}: [{name}]: one of {', '.join(KINDS)}, and {', '.join(sorted(FIELDS))}, but not "
+                      f"{', '.join(sorted(unknown)) or 'less'}")
+    at_most = fields["at_most"]
+    if isinstance(at_most, str):
+        if at_most not in parameters:
+            raise Refusal(f"{path}: [{name}]: at_most = '{at_most}' is no number, and none of {', '.join(parameters)}")
+        at_most = parameters[at_most]
+    return Fact(name, kinds[0], parse_chains(fields[kinds[0]]), at_most, parse_chains(fields.get("plus", [])),
+                fields["because"], fields["proved_by"], fields.get("offset", 0))

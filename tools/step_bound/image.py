@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A linked image: its function symbols, and the bytes that do not change while it runs."""
+
+import re
+import subprocess
+
+from elftools.common.exceptions import ELFError
+from elftools.elf.elffile import ELFFile
+
+from .refusal import Refusal
+
+WRITABLE, ALLOCATED, PLAIN = 1, 2, "SHT_PROGBITS"
+FUNCTION, OBJECT, UNTYPED = "STT_FUNC", "STT_OBJECT", "STT_NOTYPE"
+
+
+class Image:
+    def __init__(self, path):
+        self.path = path
+        try:
+            with open(path, "rb") as file:
+                self._read(ELFFile(file))
+        except (OSError, ELFError) as error:
+            raise Refusal(f"{path}: no ELF image that can be read: {error}") from error
+
+    def _read(self, elf):
+        if elf["e_machine"] != "EM_ARM":
+            raise Refusal(f"{self.path}: not for an Arm processor: {elf['e_machine']}")
+        self.constants = [(s["sh_addr"], s.data()) for s in elf.iter_sections()
+                          if s["sh_type"] == PLAIN and s["sh_flags"] & ALLOCATED and not s["sh_flags"] & WRITABLE]
+        table = elf.get_section_by_name(".symtab")
+        if table is None:
+            raise Refusal(f"{self.path}: no symbols: link it without --strip-all")
+        self.functions, self.labels, self.objects = [], [], []  # (mangled name, address, size), (name, address) of both others
+        for symbol in table.iter_symbols():
+            if symbol["st_shndx"] == "SHN_UNDEF":
+                continue
+            address = symbol["st_value"] & ~1
+            if symbol["st_info"]["type"] == FUNCTION:
+                self.functions.append((symbol.name, address, symbol["st_size"]))
+            elif symbol["st_info"]["type"] == OBJECT:
+                self.objects.append((symbol.name, symbol["st_value"]))
+            elif symbol["st_info"]["type"] == UNTYPED and symbol.name and not symbol.name.startswith("$"):
+                self.labels.append((symbol.name, address))
+        self.is_armv8_1m = "v8.1-M" in self._attributes()
+
+    def _attributes(self):
+        return subprocess.run(["arm-none-eabi-readelf", "-A", self.path], check=True, capture_output=True, text=True).stdout
+
+    def object(self, mangled_pattern):
+        """The address of the one object whose mangled name matches, or None."""
+        found = {address for name, address in self.objects if re.search(mangled_pattern, name)}
+        return found.pop() if len(found) == 1 else None
+
+    def bytes_at(self, address, size):
+        """Constant bytes, or None where the image may write."""
+        for start, data in self.constants:
+            if start <= address and address + size <= start + len(data):
+                return data[address - start:address - start + size]
+        return None
+
+    def constant(self, address, size=4, signed=False):
+        data = self.bytes_at(address, size)
+        return None if data is None else int.from_bytes(data, "little", signed=signed) & 0xFFFFFFFF
