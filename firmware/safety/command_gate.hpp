@@ -247,7 +247,8 @@ class CommandGate {
   }
 
   // Apart: a step limits a command or recodes it, which bounds it (tools/step_bound/facts.toml).
-  [[gnu::noinline]] core::DriveCommand limited(const core::DriveCommand& wanted, const core::WheelTorques& last) {
+  [[gnu::noinline]] core::DriveCommand limited(const core::DriveCommand& wanted,
+                                               const core::WheelTorques& last) {
     return {
         .torque = {limited(wanted.torque.left_mNm, last.left_mNm),
                    limited(wanted.torque.right_mNm, last.right_mNm)},
