@@ -30,6 +30,7 @@
 #include "firmware/can/drives/drive_protocol.hpp"
 #include "firmware/can/drives/drive_wiring.hpp"
 #include "firmware/can/drives/little_endian.hpp"
+#include "firmware/core/robot_profile.hpp"
 
 namespace striker::can {
 
@@ -260,7 +261,7 @@ class Cia402Drives {
         (std::int64_t{wiring.rim_um_per_turn()} * 65'536 + wiring.counts_per_turn / 2) /
         wiring.counts_per_turn;
     const std::int64_t speed_um_s = (static_cast<std::int32_t>(counts_per_s) * um_q16 + 32'768) >> 16;
-    constexpr std::int64_t greatest = 1'000 * core::greatest_measured_mm_s;
+    constexpr std::int64_t greatest = std::int64_t{1'000} * core::greatest_measured_mm_s;
     return speed_um_s < -greatest || speed_um_s > greatest
                ? std::nullopt
                : rim_speed_mm_s(wiring.sign(wheel) * static_cast<std::int32_t>(speed_um_s));
