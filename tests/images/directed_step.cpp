@@ -103,6 +103,10 @@ std::uint32_t finish(Stage stage, SmallRandom& random) {
   if ((kind & 2U) != 0) {
     frames.add(stage.operators.command(can::Mode::arm));  // makes a challenge, though it is armed
   }
+  // On the smallest core a mode command costs more than a pose.
+  while ((kind & 4U) != 0 && frames.count + 1 < frames.all.size()) {
+    frames.add(stage.operators.command(can::Mode::arm));
+  }
   // Each is older than the one before it, which the receiver has to tell from a silence.
   for (std::uint8_t age_ms = 0; frames.count < frames.all.size(); ++age_ms) {
     add_pose(stage, random, frames);

@@ -6,7 +6,7 @@
                                           # below A; "f<*T*>" with a template's arguments
     at_most = 1                           # in one call of the root; a number, or a parameter such as "frames"
     because = "..."
-    proved_by = "StepFacts.OneInference"  # a test, or "trace": every traced step is held to it
+    proved_by = "StepFacts.OneInference"  # a test; "trace", `because` and every traced step; or "argument", `because` alone
 
 `plus`, chains too, lets there be one more for each call of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
 `back`, an irreducible function goes back at most so often in one call; `word`, a function, `offset` bytes behind whose first argument a

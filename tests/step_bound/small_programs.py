@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small programs in C. `main` calls `work`, whose bound is proved, with what makes it run longest.
+
+    facts           [(kind, chain, at most)]: see tools/step_bound/facts.py
+    loose           the share by which the bound may be above the longest run, and why in a comment; 0 without it
+    refused         texts of which a refusal may hold one; always_refused: it must
+    only            the one core that it is for
+"""
+
+LEVELS = ("-O1", "-O2", "-Os")
+CORES = (
+    {"cpu": "cortex-m4", "flags": ["-mfloat-abi=soft"], "machine": "mps2-an386", "rom": "0x00000000", "ram": "0x20000000"},
+    {"cpu": "cortex-m0plus", "flags": [], "machine": "microbit", "rom": "0x00000000", "ram": "0x20000000"},
+    {"cpu": "cortex-m55", "flags": ["-mfloat-abi=hard"], "machine": "mps3-an547", "rom": "0x10000000", "ram": "0x21000000"},
+)
+# The micro:bit has 16 KB of memory, and 256 KB of flash.
+CORES[1]["ram"] = "0x20000000"
+
+QUIET = "#define APART __attribute__((noinline, noclone))\nvolatile unsigned sink; unsigned data[64];\n"
+
+
+def program(body, calls="work(7)", **more):
+    return {"source": QUIET + body + "\nint main(void) { for (unsigned i = 0; i < 64; ++i) data[i] = i; " + calls + "; return 0; }\n", **more}
+
+
+PROGRAMS = {
+    "straight": program("APART unsigned work(unsigned x) { return x * 3 + 1; }"),
+    "nested": program("APART unsigned work(unsigned x) { for (int i = 0; i < 5; ++i) for (int k = 0; k < 7; ++k) sink = x + i * k; return x; }"),
+    "triangular": program("APART unsigned work(unsigned x) { for (int i = 0; i < 9; ++i) for (int k = 0; k < i; ++k) sink = x + k; return x; }"),
+    # A value that is searched for may be the last, or none: the longest run finds none.
+    "early": program("APART unsigned work(unsigned x) { for (unsigned i = 0; i < 20; ++i) if (data[i] == x) return i; return 99; }", "work(1000); work(3)", loose=0.05),
+    "data": program("APART unsigned work(unsigned n) { unsigned sum = 0; for (unsigned i = 0; i < n; ++i) sum += data[i]; return sum; }", "work(20); work(3)",
+                    facts=[("loop", "work", 20)], refused=("the loop at",), loose=0.25),
+    "bits": program("APART unsigned work(unsigned x) { unsigned n = 0; for (unsigned m = 0x80000000U; m != 0; m >>= 1) n += (x & m) != 0; return n; }", "work(0xFFFFFFFFU)", loose=0.2),
+    "switch": program("APART unsigned work(unsigned x) { switch (x) { case 0: return 7; case 1: sink = 1; return 9; case 2: sink = 2; sink = 3; return 1;"
+                      " case 3: sink = 5; sink = 6; sink = 7; return 8; case 4: sink = 4; return 2; case 5: sink = 9; sink = 1; return 3; default: return 0; } }",
+                      "for (unsigned i = 0; i < 8; ++i) work(i)", refused=("an indirect jump", "no guard", "__gnu_thumb1_case", "stack pointer", "no table"), loose=0.1),
+    "tail": program("APART unsigned helper(unsigned x) { for (int i = 0; i < 4; ++i) sink = x; return x + 2; }\nAPART unsigned work(unsigned x) { sink = x; return helper(x); }"),
+    "chain": program("APART unsigned low(unsigned n) { unsigned s = 0; for (unsigned i = 0; i < n; ++i) { s += i; sink = s; } return s; }\n"
+                     "APART unsigned work(unsigned x) { return low(3) + low(11) + x; }"),
+    # The bound takes a division's longest run, on a core that has no instruction for it.
+    "division": program("APART unsigned work(unsigned x) { return 1000000U / x; }", "work(1); work(7); work(3); work(0xFFFFFFFFU); work(1000000U); work(999U)",
+                        facts=[("back", "__udivsi3", 3)], loose=0.6),
+    "copies": program("#include <string.h>\nunsigned to[64];\nAPART unsigned work(unsigned x) { memcpy(to, data, 44); memset(to + 11, 0, 20); return to[x]; }", loose=0.05),
+    "shared ends": program("APART unsigned work(unsigned x) { if (x & 1) { sink = 1; sink = 2; for (int i = 0; i < 3; ++i) sink = 7; return x; } sink = 3; for (int i = 0; i < 6; ++i)"
+                           " sink = 7; return x; }", "work(1); work(2)", loose=0.1),
+    "spilled": program("APART unsigned work(unsigned x) { volatile unsigned kept[8]; for (int i = 0; i < 8; ++i) kept[i] = x; unsigned s = 0; for (int i = 7; i >= 0; --i)"
+                       " s += kept[i]; return s; }"),
+    "low overhead": program("APART unsigned work(unsigned x) { unsigned s = x; for (int i = 0; i < 33; ++i) __asm volatile(\"add %0, %0, #1\" : \"+r\"(s)); return s; }",
+                            only="cortex-m55"),
+    "helium": program("#include <arm_mve.h>\nshort a[32], b[32];\nAPART int work(int x) { int s = x; for (int i = 0; i < 32; i += 8) s = vmladavaq_s16(s, vld1q_s16(a + i), vld1q_s16(b + i));"
+                      " return s; }", only="cortex-m55"),
+    "recursion": program("APART unsigned work(unsigned x) { return x < 2 ? x : work(x - 1) + work(x - 2); }", refused=("a recursion",), always_refused=True),
+    "indirect": program("unsigned (*chosen)(unsigned);\nAPART unsigned work(unsigned x) { return chosen(x) + 1; }", "chosen = work; (void)sink",
+                        refused=("an indirect call", "an indirect jump"), always_refused=True),
+    "endless": program("APART unsigned work(unsigned x) { while (sink == x) { } return x; }", "sink = 0; work(7)", refused=("the loop at",), always_refused=True),
+}

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The analyser on small programs, each compiled for three instruction sets at three levels of optimisation: the bound is what QEMU counts
+on the program's longest run, or within the looseness that is stated here, or the program is refused for the stated reason. Then each of the
+changes to the code or to the analysis below is noticed."""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path[:0] = [os.path.join(ROOT, "tools"), os.path.join(ROOT, "tests", "ports")]
+sys.dont_write_bytecode = True
+
+import qemu_trace  # noqa: E402
+from small_programs import CORES, LEVELS, PROGRAMS  # noqa: E402
+from step_bound import abstract_execution, semantics, values  # noqa: E402
+from step_bound.bound import Bound  # noqa: E402
+from step_bound.facts import Fact, parse_chain  # noqa: E402
+from step_bound.functions import Program  # noqa: E402
+from step_bound.image import Image  # noqa: E402
+from step_bound.refusal import Refusal  # noqa: E402
+from trace_checker import Checker, Contradiction, Walker  # noqa: E402
+
+START = """
+.syntax unified
+.thumb
+.section .vectors, "a"
+.word stack_top
+.word reset + 1
+.text
+.thumb_func
+.type reset, %function
+.global reset
+reset:
+  bl main
+  ldr r1, =0x20026
+  movs r0, #0x18
+  bkpt 0xab
+.size reset, . - reset
+"""
+
+SCRIPT = """
+MEMORY {{ ROM (rx) : ORIGIN = {rom}, LENGTH = 256K  RAM (rwx) : ORIGIN = {ram}, LENGTH = 64K }}
+SECTIONS {{
+  .text : {{ KEEP(*(.vectors)) *(.text*) *(.rodata*) }} > ROM
+  .data : {{ *(.data*) *(.bss*) *(COMMON) }} > RAM
+  stack_top = ORIGIN(RAM) + LENGTH(RAM);
+}}
+"""
+
+
+def compile_program(folder, core, level, source):
+    """The image, and a board for qemu_trace."""
+    write = lambda name, text: open(os.path.join(folder, name), "w", encoding="utf-8").write(text) and os.path.join(folder, name)  # noqa: E731
+    image = os.path.join(folder, "program.elf")
+    subprocess.run(["arm-none-eabi-gcc", f"-mcpu={core['cpu']}", "-mthumb", *core["flags"], level, "-ffreestanding", "-nostartfiles", "-static",
+                    "-Wl,--no-warn-rwx-segments", "-T", write("script.ld", SCRIPT.format(**core)), write("start.s", START), write("program.c", source),
+                    "-o", image], check=True, capture_output=True, text=True)
+    return image, {"name": core["cpu"], "qemu": {"system": "qemu-system-arm", "machine": core["machine"], "power_on": None,
+                                                 "arguments": ["-kernel", "{image}"]}}
+
+
+def facts_of(program):
+    return [Fact(f"fact {i}", kind, [parse_chain(chain)], most, [], "of the program", "QEMU")
+            for i, (kind, chain, most) in enumerate(program.get("facts", ()))]
+
+
+def bound_of(image, program):
+    found = Program(Image(image))
+    root = found.find("^work$")
+    found.reachable(root)
+    return Bound(found, root, abstract_execution.run(found, root), facts_of(program)), root
+
+
+def run(image, board, bound, root):
+    """The longest call of `work`, every call held to the bound's graph."""
+    checker = Checker(bound)
+    spans = [(0, 0x20000000)]
+    with qemu_trace.traced(board, image, [], spans) as lines:
+        for instructions, edges in Walker(bound, root).calls(qemu_trace.blocks(lines, bound.program.instructions)):
+            checker.check(instructions, edges)
+    return checker.longest
+
+
+def examine(folder, name, program, core, level):
+    image, board = compile_program(folder, core, level, program["source"])
+    try:
+        bound, root = bound_of(image, program)
+    except Refusal as refusal:
+        if any(reason in str(refusal) for reason in program.get("refused", ())):
+            return None, f"refused: {str(refusal)[:90]}"
+        return f"refused: {refusal}", ""
+    if program.get("always_refused"):
+        return "was not refused", ""
+    try:
+        longest = run(image, board, bound, root)
+    except Contradiction as contradiction:
+        return f"contradiction: {contradiction}", ""
+    loose = bound.total - longest
+    verdict = f"proved {bound.total}, ran {longest}"
+    return (None if 0 <= loose <= program.get("loose", 0) * max(longest, 1) else verdict), verdict
+
+
+# ---- mutations: of the analysis, each while a program is examined that must show it -------------------------------------------------
+
+
+def replaced(table, key, value):
+    old = table[key]
+
+    def undo():
+        table[key] = old
+    table[key] = value
+    return undo
+
+
+def without_edge(self, edges, _old=abstract_execution.Execution._remember):
+    return edges
+
+
+MUTATIONS = {
+    "a shift that does nothing": ("bits", lambda: replaced(values.SHIFTS, "lsr", lambda v, n: v)),
+    "an addition that is one short": ("nested", lambda: replaced(semantics.HANDLERS, "add", lambda s, state, i: state.put(i.operands[0], 1))),
+    "a subtraction that is a move": ("nested", lambda: replaced(semantics.HANDLERS, "sub", semantics.move)),
+    "an addition that is a move": ("triangular", lambda: replaced(semantics.HANDLERS, "add", semantics.move)),
+}
+
+
+def mutate(folder, core):
+    failed = 0
+    for name, (program, change) in MUTATIONS.items():
+        undo = change()
+        try:
+            problem, verdict = examine(folder, program, PROGRAMS[program], core, "-O1")
+        except (TypeError, AttributeError) as error:
+            problem, verdict = str(error), ""
+        finally:
+            undo()
+        print(f"{'ok' if problem else 'FAILED'}: {name}: {problem or 'not noticed: ' + verdict}")
+        failed += not problem
+    base = PROGRAMS["data"]
+    for name, program in {
+        "a false fact: a turn too few": {**base, "facts": [("loop", "work", 19)]},
+        "a fact that is missing": {**base, "facts": []},
+        "a false fact: a call that is never made": {**PROGRAMS["tail"], "facts": [("calls", "helper", 0)]},
+    }.items():
+        problem, verdict = examine(folder, name, program, core, "-O1")
+        print(f"{'ok' if problem else 'FAILED'}: {name}: {problem or 'not noticed: ' + verdict}")
+        failed += not problem
+    for name, program, old, new in (
+        ("a loop one turn longer", "nested", "i < 5", "i < 6"),
+        ("a call added", "tail", "return helper(x)", "return helper(helper(x))"),
+    ):
+        with tempfile.TemporaryDirectory() as other:
+            first, _ = compile_program(folder, core, "-O1", PROGRAMS[program]["source"])
+            second, _ = compile_program(other, core, "-O1", PROGRAMS[program]["source"].replace(old, new))
+            before, after = bound_of(first, PROGRAMS[program])[0].total, bound_of(second, PROGRAMS[program])[0].total
+        print(f"{'ok' if after > before else 'FAILED'}: {name}: {before} became {after}")
+        failed += after <= before
+    return failed
+
+
+def main():
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for core in CORES:
+            for name, program in PROGRAMS.items():
+                for level in LEVELS:
+                    if program.get("only", core["cpu"]) != core["cpu"]:
+                        continue
+                    problem, verdict = examine(folder, name, program, core, level)
+                    print(f"{'FAILED' if problem else 'ok'}: {core['cpu']} {level} {name}: {problem or verdict}", flush=True)
+                    failed += problem is not None
+        failed += mutate(folder, CORES[0])
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
