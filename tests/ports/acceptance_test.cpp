@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 
+#include "firmware/can/controller_receives.hpp"
+#include "firmware/can/drives/striker_drives.hpp"
 #include "firmware/ports/bare_metal/can_driver/acceptance.hpp"
 
 namespace striker::bare_metal {
@@ -28,12 +30,12 @@ int passing(const std::array<AcceptanceFilter, count>& filters) {
 TEST(Acceptance, WhatTheControllerListensToPasses) {
   constexpr auto ids = can::controller_receives<can::StrikerDrives>;
   for (const std::uint16_t id : ids) {
-    EXPECT_TRUE(passes(controller_filters<1>, id)) << id;
-    EXPECT_TRUE(passes(controller_filters<4>, id)) << id;
-    EXPECT_TRUE(passes(controller_filters<14>, id)) << id;
+    EXPECT_TRUE(passes(acceptance_filters<1>(ids), id)) << id;
+    EXPECT_TRUE(passes(acceptance_filters<4>(ids), id)) << id;
+    EXPECT_TRUE(passes(acceptance_filters<14>(ids), id)) << id;
   }
-  EXPECT_LT(passing(controller_filters<4>), 64);
-  EXPECT_EQ(passing(controller_filters<14>), static_cast<int>(ids.size()));
+  EXPECT_LT(passing(acceptance_filters<4>(ids)), 64);
+  EXPECT_EQ(passing(acceptance_filters<14>(ids)), static_cast<int>(ids.size()));
 }
 
 TEST(Acceptance, AnyIdentifiersPassTheirFilters) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Acceptance filters of the mask kind, for drivers of CAN controllers: what the controller listens to
-// (firmware/can/controller_receives.hpp) in as few filters as the hardware has. Found by the compiler.
+// (accepted_identifiers.hpp) in as few filters as the hardware has. Found by the compiler.
 //
-//   constexpr auto filters = controller_filters<4>;
+//   constexpr auto filters = acceptance_filters<4>(accepted_identifiers);
 //
 // Each identifier passes one of them at least. Where there are more identifiers than filters, neighbours share
 // one: the two whose common filter lets the fewest identifiers through, again and again. What passes although
@@ -14,9 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-
-#include "firmware/can/controller_receives.hpp"
-#include "firmware/can/drives/striker_drives.hpp"
 
 namespace striker::bare_metal {
 
@@ -71,10 +68,5 @@ template <std::size_t most, std::size_t count>
   }
   return found;
 }
-
-// What this image's controller listens to.
-template <std::size_t most>
-inline constexpr auto controller_filters =
-    acceptance_filters<most>(can::controller_receives<can::StrikerDrives>);
 
 }  // namespace striker::bare_metal

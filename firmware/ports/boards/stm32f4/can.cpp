@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // CAN1 on PB8 (receive) and PB9 (transmit), with its reception interrupt. It has not run on silicon: see README.md.
 #include "firmware/ports/bare_metal/can_bus.hpp"
+#include "firmware/ports/bare_metal/can_driver/accepted_identifiers.hpp"
 #include "firmware/ports/bare_metal/clock.hpp"
-#include "firmware/ports/bare_metal/devices/acceptance.hpp"
 #include "firmware/ports/boards/stm32f4/bit_timing.hpp"
 #include "firmware/ports/boards/stm32f4/board_clock_tree.hpp"
 #include "firmware/ports/boards/stm32f4/bxcan.hpp"

@@ -3,6 +3,7 @@
 #include "firmware/ports/boards/zcu102-r5/zynqmp_can.hpp"
 
 #include "firmware/ports/bare_metal/can_bus.hpp"
+#include "firmware/ports/bare_metal/can_driver/accepted_identifiers.hpp"
 #include "firmware/ports/bare_metal/clock.hpp"
 
 namespace striker::bare_metal {
@@ -33,7 +34,8 @@ constinit zcu102::ZynqmpCan<Can0, encoding> controller;
 }  // namespace
 
 void start_can() {
-  controller.start(zcu102::bit_timing(STRIKER_CAN_CLOCK_HZ), controller_filters<4>);
+  constexpr static auto filters = acceptance_filters<4>(accepted_identifiers);
+  controller.start(zcu102::bit_timing(STRIKER_CAN_CLOCK_HZ), filters);
 }
 
 bool receive_can(can::Frame& frame) {
