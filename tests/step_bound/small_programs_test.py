@@ -35,6 +35,11 @@ START = """
 .type reset, %function
 .global reset
 reset:
+  ldr r0, =0xe000ed88  @ CPACR: where there are coprocessors, Helium is one
+  ldr r1, =0x00f00000
+  str r1, [r0]
+  dsb
+  isb
   bl main
   ldr r1, =0x20026
   movs r0, #0x18
@@ -43,7 +48,7 @@ reset:
 """
 
 SCRIPT = """
-MEMORY {{ ROM (rx) : ORIGIN = {rom}, LENGTH = 256K  RAM (rwx) : ORIGIN = {ram}, LENGTH = 64K }}
+MEMORY {{ ROM (rx) : ORIGIN = {rom}, LENGTH = 256K  RAM (rwx) : ORIGIN = {ram}, LENGTH = 16K }}
 SECTIONS {{
   .text : {{ KEEP(*(.vectors)) *(.text*) *(.rodata*) }} > ROM
   .data : {{ *(.data*) *(.bss*) *(COMMON) }} > RAM
@@ -54,7 +59,12 @@ SECTIONS {{
 
 def compile_program(folder, core, level, source):
     """The image, and a board for qemu_trace."""
-    write = lambda name, text: open(os.path.join(folder, name), "w", encoding="utf-8").write(text) and os.path.join(folder, name)  # noqa: E731
+    def write(name, text):
+        path = os.path.join(folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
     image = os.path.join(folder, "program.elf")
     subprocess.run(["arm-none-eabi-gcc", f"-mcpu={core['cpu']}", "-mthumb", *core["flags"], level, "-ffreestanding", "-nostartfiles", "-static",
                     "-Wl,--no-warn-rwx-segments", "-T", write("script.ld", SCRIPT.format(**core)), write("start.s", START), write("program.c", source),
@@ -72,7 +82,7 @@ def bound_of(image, program):
     found = Program(Image(image))
     root = found.find("^work$")
     found.reachable(root)
-    return Bound(found, root, abstract_execution.run(found, root), facts_of(program)), root
+    return Bound(found, root, abstract_execution.run(found, root, aligned_arguments=False), facts_of(program)), root
 
 
 def run(image, board, bound, root):
@@ -116,15 +126,32 @@ def replaced(table, key, value):
     return undo
 
 
-def without_edge(self, edges, _old=abstract_execution.Execution._remember):
-    return edges
+def removed(table, key):
+    old = table.pop(key)
+    return lambda: table.__setitem__(key, old)
+
+
+def shorter_loops():
+    """Every loop's bound is one turn short."""
+    old = abstract_execution.Execution._unroll
+
+    def changed(*arguments):
+        exits, turns, passes = old(*arguments)
+        return exits, turns and turns - 1, {edge: count and count - 1 for edge, count in passes.items()}
+    abstract_execution.Execution._unroll = changed
+    return lambda: setattr(abstract_execution.Execution, "_unroll", old)
 
 
 MUTATIONS = {
-    "a shift that does nothing": ("bits", lambda: replaced(values.SHIFTS, "lsr", lambda v, n: v)),
+    "a move that is one more": ("nested", lambda: replaced(semantics.HANDLERS, "mov", lambda s, state, i: state.put(
+        i.operands[0], values.add(s.value(state, i.operands[1]), 1)))),
     "an addition that is one short": ("nested", lambda: replaced(semantics.HANDLERS, "add", lambda s, state, i: state.put(i.operands[0], 1))),
     "a subtraction that is a move": ("nested", lambda: replaced(semantics.HANDLERS, "sub", semantics.move)),
     "an addition that is a move": ("triangular", lambda: replaced(semantics.HANDLERS, "add", semantics.move)),
+    "a comparison that is always equal": ("nested", lambda: replaced(semantics.HANDLERS, "cmp", lambda s, state, i: setattr(
+        state, "flags", values.Flags("result", 0)))),
+    "an instruction that is not known": ("nested", lambda: removed(semantics.HANDLERS, "cmp")),
+    "loops that are one turn short": ("chain", shorter_loops),
 }
 
 
@@ -143,7 +170,7 @@ def mutate(folder, core):
     base = PROGRAMS["data"]
     for name, program in {
         "a false fact: a turn too few": {**base, "facts": [("loop", "work", 19)]},
-        "a fact that is missing": {**base, "facts": []},
+        "a fact that is missing": {**base, "facts": [], "refused": ()},
         "a false fact: a call that is never made": {**PROGRAMS["tail"], "facts": [("calls", "helper", 0)]},
     }.items():
         problem, verdict = examine(folder, name, program, core, "-O1")

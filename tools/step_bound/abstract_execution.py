@@ -193,10 +193,10 @@ def insn_decides(block):
     return block.last.operation in ("b", "bx", "cbz", "cbnz", "le", "letp", "tbb", "tbh")
 
 
-def run(program, root, known_words=()):
-    """What the root's call can do, whatever its arguments: pointers to objects, aligned to 4."""
+def run(program, root, known_words=(), aligned_arguments=True):
+    """What the root's call can do, whatever its arguments: pointers to objects that are aligned to 4, unless told otherwise."""
     registers = {STACK: Pointer(STACK, 0, True)}
-    registers |= {register: Pointer(f"argument {register}", 0, True) for register in POINTER_ARGUMENTS}
+    registers |= {register: Pointer(f"argument {register}", 0, aligned_arguments) for register in POINTER_ARGUMENTS}
     registers |= {f"r{i}": Pointer(f"caller's r{i}", 0, False) for i in range(4, 12)}
     execution = Execution(program, known_words)
     execution.call(root, State(registers), ())

@@ -116,6 +116,8 @@ class Program:
                 self.second.check(insn)
                 pending = self._apply_it(insn, pending)
                 flow = flows[address] = self.reader.flow(insn, function)
+                if self.symbols.get(flow.call, ("",))[0].startswith("__gnu_thumb1_case"):
+                    raise Refusal(f"{function.name}: a helper that jumps by its return address: {insn}")
                 inside = [t for t in flow.jumps if self._is_inside(function, t)]
                 fresh = [t for t in inside + [insn.next] * (flow.falls and flow.ends_block) if t not in leaders]
                 leaders.update(fresh)
