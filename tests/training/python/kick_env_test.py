@@ -153,6 +153,12 @@ class KickEnv(PackageCase):
                        {"robot": {"torque_limit_mNm": 200}}):
             self.assertTrue(walk(striker.KickEnv(**option), 1000) != plain, option)
 
+    def test_an_option_keeps_every_digit(self):
+        waiting = -0.1234567890123456
+        env = striker.KickEnv(reward={"waiting": waiting}, actions=numpy.array([[1.0, 1.0], [0.0, 0.0]]))
+        env.reset(seed=1)
+        self.assertEqual(env.step(0)[1], waiting)
+
     def test_a_wrong_option_is_named_with_what_it_may_be(self):
         for option, said in (({"world": "slow"}, 'task.world.*"fast" or "full"'), ({"dummies": 101}, "0 to 100"),
                              ({"inputs": ["ball_z"]}, "ball_z"), ({"ball": {"sped": 1}}, "ball.sped"),
