@@ -99,6 +99,7 @@ class Board(unittest.TestCase):
             ({"FLASH_ORIGIN": "08000000"}, "FLASH_ORIGIN is '08000000', but has to be an address"),
             ({"RAM": "96kB"}, "RAM is '96kB', but has to be a size"),
             ({"CLOCK_HZ": "170MHz"}, "CLOCK_HZ is '170MHz'"),
+            ({"QEMU_CLOCK_HZ": "fast"}, "QEMU_CLOCK_HZ is 'fast', but has to be a number of hertz"),
             ({"INTERRUPTS": "many"}, "INTERRUPTS is 'many', but has to be a number of lines"),
             ({"WATCHDOG": "own.cpp"}, "WATCHDOG: no own.cpp, neither in the board's folder nor in"),
             ({"CAN": "none.cpp"}, "CAN: no none.cpp, neither in the board's folder nor in"),
