@@ -93,6 +93,7 @@ class Board:
     def __init__(self, board, image, interface, folder, counts=True):
         self._board, self._image, self._interface, self._folder = board, image, interface, folder
         self._counts = counts
+        self._is_bridged = not board["qemu"]["can"]
         self._bridge = self._control = None
         self.symbols = stack_usage.symbols(image)
 
@@ -117,7 +118,7 @@ class Board:
         with open(self.path("qemu.log"), "wb") as log:
             self._process = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         try:
-            if not self._board["qemu"]["can"]:
+            if self._is_bridged:
                 self._bridge = SlcanBridge(self._connect("serial"), self._interface)
             self._control = self._connect("qmp")
             self._control.settimeout(START_LIMIT_S)
@@ -173,7 +174,8 @@ class Board:
 
     def read(self, symbol, size):
         """Bytes of the board's memory from a symbol of its image."""
-        self.ask("pmemsave", val=self.symbols[symbol], size=size, filename=self.path("memory"))
+        processor = 4 if self._board["qemu"]["power_on"] else 0  # the R5 comes after four others
+        self.ask("memsave", **{"val": self.symbols[symbol], "size": size, "filename": self.path("memory"), "cpu-index": processor})
         with open(self.path("memory"), "rb") as memory:
             return memory.read()
 

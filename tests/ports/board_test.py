@@ -148,6 +148,7 @@ class Board(unittest.TestCase):
             ({"CPU": "cortex-r5", "RAM_ORIGIN": "0x08001000"}, "FLASH and RAM share addresses"),
             ({"CLOCK_HZ": "170MHz"}, "CLOCK_HZ is '170MHz'"),
             ({"CLOCK_HZ": "32768"}, "CLOCK_HZ is '32768', but a tick of 1 ms has to be whole counts"),
+            ({"QEMU_CLOCK_HZ": "fast"}, "QEMU_CLOCK_HZ is 'fast', but has to be a number of hertz"),
             ({"INTERRUPTS": "many"}, "INTERRUPTS is 'many', but has to be a number of lines"),
             ({"HANDLERS": "20"}, "HANDLERS has '20', but wants line=function"),
             ({"HANDLERS": "102=can"}, "HANDLERS has '102=can', but INTERRUPTS says that there are 102"),

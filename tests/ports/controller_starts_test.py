@@ -26,7 +26,12 @@ TICKS_OF_COUNTED = 12  # offset in CountedTicks
 
 
 class LoneBoard(pil_board.Board):
-    """Without a bus behind it; 32 ns an instruction, so that 2 s of virtual time are short."""
+    """Without a bus behind it: its serial port goes into a file, which never holds it up. 32 ns an instruction, so that
+    2 s of virtual time are short."""
+
+    def __init__(self, entry, image, folder):
+        super().__init__(entry, image, "none", folder)
+        self._is_bridged = False
 
     def _command(self):
         line = super()._command()
@@ -34,28 +39,16 @@ class LoneBoard(pil_board.Board):
         if self._board["qemu"]["can"]:
             at = next(i for i, word in enumerate(line) if word.startswith("can-host-socketcan"))
             del line[at - 1:at + 1]
+        else:
+            line[line.index("-serial") + 1] = f"file:{self.path('serial')}"
         return line
 
-
-class Heard:
-    """What came over the serial port, as (identifier, data)."""
-
-    def __init__(self, serial, _):
-        self._serial = serial
-        self._waiting = b""
-        self.frames = []
-
-    def listen(self):
-        received = self._serial.recv(65536)
-        if not received:
-            sys.exit("controller_starts_test: the image's serial port closed")
-        *lines, self._waiting = (self._waiting + received).split(b"\r")
-        # A line that the host kept the board from finishing is broken off, and no frame.
-        packets = (struct.unpack("=IB3x8s", packet) for packet in filter(None, map(pil_board.from_slcan, lines)))
-        self.frames += [(identifier, data[:length]) for identifier, length, data in packets]
-
-    def close(self):
-        self._serial.close()
+    def frames(self):
+        """What came over the serial port, as (identifier, data)."""
+        with open(self.path("serial"), "rb") as serial:
+            lines = serial.read().split(b"\r")[:-1]
+        packets = [struct.unpack("=IB3x8s", pil_board.from_slcan(line)) for line in lines]
+        return [(identifier, data[:length]) for identifier, length, data in packets]
 
 
 def expect(holds, text):
@@ -64,14 +57,15 @@ def expect(holds, text):
 
 
 def listen_to(board):
-    heard, end = board._bridge, time.monotonic() + LIMIT_S  # pylint: disable=protected-access
-    commands = []
+    end = time.monotonic() + LIMIT_S
+    commands = frames = []
     while len(commands) < TICKS:
         expect(time.monotonic() < end, f"{len(commands)} wheel commands within {LIMIT_S} s")
-        heard.listen()
-        commands = [data for identifier, data in heard.frames if identifier == controller_image_test.WHEEL_COMMAND]
+        time.sleep(0.2)
+        frames = board.frames()
+        commands = [data for identifier, data in frames if identifier == controller_image_test.WHEEL_COMMAND]
     expect(not any(any(data[2:]) for data in commands), "a wheel command moves")
-    states = {striker_dbc.named("Status", "state", data) for identifier, data in heard.frames
+    states = {striker_dbc.named("Status", "state", data) for identifier, data in frames
               if identifier == controller_image_test.STATUS}
     expect("standby" in states and "fault" not in states, f"its states are {sorted(states)}")
     return len(commands), f"states {sorted(states)}"
@@ -98,8 +92,7 @@ def main():
     arguments = parser.parse_args()
     entry = qemu_image.read_board(arguments.boards, arguments.board)
     image = os.path.join(arguments.build_dir, "bin", "striker-controller.elf")
-    pil_board.SlcanBridge = Heard
-    with tempfile.TemporaryDirectory() as folder, LoneBoard(entry, image, "none", folder) as board:
+    with tempfile.TemporaryDirectory() as folder, LoneBoard(entry, image, folder) as board:
         ticks, told = look_into(board) if entry["qemu"]["can"] else listen_to(board)
         print(f"{ticks} ticks, {told}; stack {board.deepest_stack()} bytes deep")
 

@@ -15,10 +15,11 @@ namespace {
 
 TEST(Strategies, EachNameMakesATeam) {
   std::set<std::string_view> names;
-  for (const auto& [name, help] : strategy_names()) {
+  for (const auto& [name, help, orders_motions] : strategy_names()) {
     EXPECT_NE(make_strategy(name, 1), nullptr);
     EXPECT_FALSE(help.empty());
     EXPECT_TRUE(names.insert(name).second) << name;
+    EXPECT_EQ(orders_motions, name == "striker") << name;
   }
   EXPECT_GE(names.size(), 5U);
 }
