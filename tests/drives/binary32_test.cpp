@@ -70,6 +70,21 @@ TEST(Binary32, OfARatioIsTheHostsQuotient) {
   }
 }
 
+// Beyond 2^24 every second whole number lies half way between two floats, and beyond 2^25 others do.
+TEST(Binary32, HalvesGoToEven) {
+  const auto of_host = [](std::int32_t value) {
+    return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  };
+  for (std::int32_t value = 1 << 24; value < (1 << 24) + 100'000; ++value) {
+    ASSERT_EQ(binary32_of_ratio(value, 1), of_host(value)) << value;
+    ASSERT_EQ(binary32_of_ratio(-value, 1), of_host(-value)) << value;
+  }
+  for (std::uint32_t value = 1U << 25; value < 0x8000'0000U; value += 4093) {
+    ASSERT_EQ(binary32_of_ratio(static_cast<std::int32_t>(value), 1),
+              of_host(static_cast<std::int32_t>(value)));
+  }
+}
+
 // Every torque that a wheel command holds, with every gear.
 TEST(Binary32, ATorqueComesBackAsItWent) {
   for (std::uint32_t gear_percent = 10; gear_percent <= 10'000; ++gear_percent) {

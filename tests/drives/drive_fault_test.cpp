@@ -106,7 +106,11 @@ class ForeignDrivesPlay : public testing::TestWithParam<can::DriveKind> {};
 
 TEST_P(ForeignDrivesPlay, DriveEveryEpisodeAndRestBetween) {
   DriveRig rig(GetParam());
-  Watch watch(GetParam(), [](std::uint32_t) {});
+  Watch watch(GetParam(), [&](std::uint32_t tick) {
+    if (tick > kick_boot_ticks + kick_episode_ticks && (tick - kick_boot_ticks) % kick_episode_ticks == 40) {
+      EXPECT_TRUE(rig.drives->cut(tick)) << "40 ms after the disarm";
+    }
+  });
   rig.play({.episodes = 4}, {&watch});
   EXPECT_TRUE(rig.undriven.empty());
   EXPECT_EQ(watch.fault, core::Fault::none) << core::name_of(watch.fault);

@@ -183,6 +183,8 @@ TYPED_TEST(ForeignGate, WhatIsNoFrameOfItsDrivesDoesNotLeave) {
       }
     }
   }
+  const can::Frame little = {.id = 0x00E, .length = 4, .data = {0xAC, 0xC5, 0x27, 0x37}};  // 0.01 mNm
+  EXPECT_FALSE(may_send<can::OdriveDrives<sil::odrive_wiring>>(little)) << "it would look like none";
   can::Frame nan = {.id = 0x00E, .length = 4, .data = {0, 0, 0xC0, 0x7F}};
   EXPECT_FALSE(may_send<can::OdriveDrives<sil::odrive_wiring>>(nan));
 }

@@ -136,7 +136,7 @@ class OdriveDrives {
     const std::uint32_t value = little_endian_32(frame, 0);
     switch (command) {
       case odrive::set_input_torque:
-        return scaled_binary32(value, mNm_per_motor_Nm).has_value();
+        return is_whole_torque(value);
       case odrive::set_axis_state:
         return value == odrive::idle || value == odrive::closed_loop;
       case odrive::set_controller_mode:
@@ -181,6 +181,12 @@ class OdriveDrives {
   }
   static constexpr bool is_torque(const Frame& frame) {
     return (frame.id & 0x1FU) == odrive::set_input_torque;
+  }
+
+  // What is less than a whole mNm would look like none.
+  static bool is_whole_torque(std::uint32_t bits) {
+    const auto torque_mNm = scaled_binary32(bits, mNm_per_motor_Nm);
+    return torque_mNm && binary32_of_ratio(*torque_mNm, mNm_per_motor_Nm) == bits;
   }
 
   [[gnu::noinline]] static Frame frame_of(std::size_t wheel, std::uint16_t command, std::uint32_t first,
