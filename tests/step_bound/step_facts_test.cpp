@@ -155,6 +155,11 @@ TEST(StepFacts, SendsOneOfEach) {
   }
 }
 
+TEST(StepFacts, ConsentHasSixBytes) {
+  static_assert(can::layout<can::ModeCommand>.info.length == 6 &&
+                can::layout<can::Challenge>.info.length == 6);
+}
+
 // As a pilot that never decided: what came before is not in the inputs.
 TEST(StepFacts, ArmingShiftsNoHistory) {
   loop::BuiltInPilot used;

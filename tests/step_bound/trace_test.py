@@ -61,10 +61,11 @@ def main():
     parser.add_argument("--late", action="store_true", help="the robot's commands are delayed")
     parser.add_argument("--search", type=int, default=1500)
     parser.add_argument("--directed", type=int, default=40)
-    parser.add_argument("--compare", action="store_true")
+    parser.add_argument("--facts", default=analysis.FACTS)
+    parser.add_argument("--compare", action="store_true", help="print where the worst path goes and the longest step did not")
     arguments = parser.parse_args()
     board = qemu_image.read_board(arguments.boards, arguments.board)
-    found = analysis.Analysis(arguments.image, late=arguments.late)
+    found = analysis.Analysis(arguments.image, late=arguments.late, facts=arguments.facts)
     bound = found.bound()
     longest = 0
     for words in (["search", arguments.search, "seed", 3], ["directed", arguments.directed]):

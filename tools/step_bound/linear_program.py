@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A linear program over whole numbers, maximised by GLPK.
 
-First its relaxation, solved again in exact arithmetic: that is an upper bound already, and mostly whole. Where it is not, a search for the
-whole optimum gets some seconds; what it does not finish keeps the relaxation's bound.
+First its relaxation: that is an upper bound already, and mostly whole. Where it is not, a search for the whole optimum gets some seconds;
+what it does not finish keeps the relaxation's bound.
 """
 
 import math
