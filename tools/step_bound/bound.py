@@ -11,9 +11,9 @@ def instructions(block):
 
 
 def turns_of(bodies, function, loop):
-    """The body runs once before each turn back where the test stands at its end; where it stands elsewhere, before the first too."""
-    tests = [source for source, _ in loop.exits(function)]
-    return bodies - (1 if tests == loop.latches else 0)
+    """The body runs once before each turn back where a test stands at each of its ends; where one stands elsewhere, before the first too."""
+    tests = {source for source, _ in loop.exits(function)}
+    return bodies - (1 if tests == set(loop.latches) else 0)
 
 
 class Bound:
