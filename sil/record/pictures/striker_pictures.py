@@ -40,7 +40,8 @@ class PlotError(Exception):
 
 
 def save(figure, directory, name, command):
-    """Writes NAME.svg and NAME.png, each whole or not at all, and says so."""
+    """Writes NAME.svg and NAME.png, each whole or not at all, and says so. The folder is made if there is none."""
+    os.makedirs(directory, exist_ok=True)
     kinds = {"svg": {"Date": None, "Description": command}, "png": {"Software": None, "Description": command}}
     for kind, metadata in kinds.items():
         target = os.path.join(directory, f"{name}.{kind}")
@@ -79,7 +80,6 @@ def run(program, draw, options):
     kept = [word for place, word in enumerate(words)
             if word not in ("-o", "--out") and (place == 0 or words[place - 1] not in ("-o", "--out"))]
     try:
-        os.makedirs(options.out, exist_ok=True)
         draw(options, options.out, " ".join([program, *kept]))
     except PlotError as error:
         refuse(program, error)
