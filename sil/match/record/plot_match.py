@@ -70,6 +70,7 @@ def positions(frames, report, directory, command):
             for places, part in ((x_m, 0), (y_m, 1)):
                 column = frames[f"robot_{robot}_cur_pos{suffix}_{part}"]
                 places.extend(place for place, active in zip(column, plays) if active)
+        axes.grid(False)
         if x_m:
             _, _, _, image = axes.hist2d(x_m, y_m, bins=(90, 50), range=((-4.5, 4.5), (-2.5, 2.5)), cmin=1,
                                          cmap="Reds" if colour == "red" else "Blues",
