@@ -10,7 +10,7 @@ namespace striker::sil {
 namespace {
 
 constexpr std::uint32_t command_timeout_ticks = 10;
-constexpr std::uint32_t heartbeat_ticks = 10;
+constexpr std::uint32_t producer_heartbeat_ticks = 10;
 constexpr std::uint8_t cyclic_synchronous_torque = 10;
 
 std::uint16_t identifier(std::uint32_t function, std::int32_t node) {
@@ -100,7 +100,7 @@ void Cia402Drives::report(const RimSpeeds& speeds, std::uint32_t tick, std::vect
       std::memcpy(&frame.data[2], &node.counts_per_s, 4);
       frames.push_back(frame);
     }
-    if (tick % heartbeat_ticks == 5 * wheel) {
+    if (tick % producer_heartbeat_ticks == 5 * wheel) {
       can::Frame frame = {.id = identifier(0x700, number), .length = 1};
       frame.data[0] = node.is_operational ? 0x05 : 0x7F;
       frames.push_back(frame);
