@@ -22,9 +22,9 @@ def run(program, *words):
 
 
 def seen_by_browser(page, moment, profile):
-    done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
-                           "--virtual-time-budget=2000", "--dump-dom", f"file://{page}#{moment}"],
-                          capture_output=True, text=True, check=True, timeout=300)
+    words = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+             f"--user-data-dir={profile}", "--virtual-time-budget=2000", "--dump-dom", f"file://{page}#{moment}"]
+    done = subprocess.run(words, capture_output=True, text=True, check=True, timeout=300)
     return done.stdout
 
 
