@@ -74,7 +74,9 @@ using Case = std::tuple<can::DriveKind, std::size_t, DriveFailure>;
 class ForeignDriveFails : public testing::TestWithParam<Case> {};
 
 TEST_P(ForeignDriveFails, IsAFaultWithinThreeOfItsPeriods) {
-  const auto [kind, wheel, failure] = GetParam();
+  const can::DriveKind kind = std::get<0>(GetParam());
+  const std::size_t wheel = std::get<1>(GetParam());
+  const DriveFailure failure = std::get<2>(GetParam());
   for (std::uint32_t phase = 0; phase < own_period_ticks; ++phase) {
     DriveRig rig(kind);
     auto& drives = dynamic_cast<ForeignDrives&>(*rig.drives);

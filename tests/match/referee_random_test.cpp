@@ -59,7 +59,8 @@ void expect_every_rule(const Seen& seen) {
 TEST(RefereeRandom, OfficialRulesKeepEveryPromise) {
   const char* wanted = std::getenv("STRIKER_REFEREE_FRAMES");
   Seen seen;
-  play_at_random(official(), 1, wanted == nullptr ? 200'000 : std::atoi(wanted), seen);
+  play_at_random(official(), 1,
+                 wanted == nullptr ? 200'000 : static_cast<int>(std::strtol(wanted, nullptr, 10)), seen);
   expect_every_rule(seen);
 }
 

@@ -92,7 +92,7 @@ class PhysicsWatch final : public MatchObserver, public Observer {
 
 TEST(MatchPhysics, KeepsToTheFieldAndToItsSpeeds) {
   const char* wanted = std::getenv("STRIKER_MATCHES");
-  const int matches = wanted == nullptr ? 1 : std::atoi(wanted);
+  const int matches = wanted == nullptr ? 1 : static_cast<int>(std::strtol(wanted, nullptr, 10));
   ASSERT_GT(matches, 0);
   for (int i = 0; i < matches; ++i) {
     SCOPED_TRACE("seed " + std::to_string(100 + i));
