@@ -176,7 +176,7 @@ TEST_F(ZynqmpCanTest, ItTakesWhatATickMakesWhileNobodyAcknowledges) {
   while (driver.try_send(frame(0x100), tick)) {
     ++taken;
   }
-  EXPECT_LE(taken, 14);
+  EXPECT_LE(taken, 18);  // the queue's, and two in the controller
 }
 
 }  // namespace

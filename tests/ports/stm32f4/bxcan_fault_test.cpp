@@ -37,7 +37,7 @@ TEST_F(BxCanBus, NoFrameGoesThatIs10MillisecondsOld) {
     for (int sent = 0; sent < 2; ++sent) {
       if (const auto on_wire = transmit(is_plugged ? Outcome::acknowledged : Outcome::unacknowledged)) {
         const std::uint32_t since = std::uint32_t{on_wire->data[0]} | std::uint32_t{on_wire->data[1]} << 8U;
-        ASSERT_LT(now_ms - since, transmit_timeout_ms);
+        ASSERT_LT(now_ms - since, bare_metal::transmit_timeout_ticks);
       }
     }
   }
@@ -48,7 +48,7 @@ TEST_F(BxCanBus, AFrameOnTheWireAtItsTimeoutEndsThere) {
   ASSERT_TRUE(driver.try_send(frame_of(0x050), now_ms));
   settle();
   ASSERT_TRUE(model.begin_transmission());
-  now_ms += transmit_timeout_ms;
+  now_ms += bare_metal::transmit_timeout_ticks;
   settle();
   model.end_transmission(Outcome::unacknowledged);
   settle();

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames that wait for a CAN controller's transmit buffers, as can_bus.hpp wants them: the lowest identifier first,
-// frames of one identifier in the order of the calls, and none older than 10 ms.
+// frames of one identifier in the order of the calls, and none older than 10 ms. Of fixed size: a full queue takes a more
+// urgent frame in the place of the least urgent.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "firmware/can/frame.hpp"
 
@@ -16,41 +15,45 @@ namespace striker::bare_metal {
 // The wheel command's time-out: after it the drives have cut the torque, and what comes then is too late.
 inline constexpr std::uint32_t transmit_timeout_ticks = 10;
 
+struct Waiting {
+  can::Frame frame;
+  std::uint32_t since_tick = 0;
+
+  [[nodiscard]] bool is_too_old(std::uint32_t tick) const {
+    return tick - since_tick >= transmit_timeout_ticks;
+  }
+};
+
 class TransmitQueue {
  public:
-  // What a tick makes at most (9), and some that still wait.
-  static constexpr std::size_t capacity = 12;
-
-  // False if there is no room.
-  bool add(const can::Frame& frame, std::uint32_t tick) {
-    if (count_ == capacity) {
-      return false;
-    }
-    const auto waiting = std::span(entries_).first(count_);
-    auto at = count_;
-    while (at > 0 && frame.id < waiting[at - 1].frame.id) {
-      entries_[at] = entries_[at - 1];
-      --at;
-    }
-    entries_[at] = {.frame = frame, .since = tick};
-    ++count_;
-    return true;
-  }
+  // A tick's nine frames, and what a bus that is not acknowledged leaves of a command every 1 ms and a status every 10.
+  static constexpr std::size_t capacity = 16;
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  // The next to go, and since when it waits. Not of an empty queue.
-  [[nodiscard]] const can::Frame& front() const { return entries_[0].frame; }
-  [[nodiscard]] std::uint32_t front_since() const { return entries_[0].since; }
-  void pop() {
-    --count_;
-    std::copy_n(entries_.begin() + 1, count_, entries_.begin());
+  [[nodiscard]] std::size_t size() const { return count_; }
+  // In the order in which they are to go.
+  [[nodiscard]] const Waiting& operator[](std::size_t at) const { return entries_[at]; }
+
+  // False if it is full of frames at least as urgent.
+  bool add(const Waiting& waiting) {
+    return insert(waiting, [&](const can::Frame& other) { return other.id <= waiting.frame.id; });
+  }
+  // One that had its turn before, and was taken back: before the others of its identifier.
+  bool put_back(const Waiting& waiting) {
+    return insert(waiting, [&](const can::Frame& other) { return other.id < waiting.frame.id; });
+  }
+
+  void remove(std::size_t at) {
+    for (--count_; at < count_; ++at) {
+      entries_[at] = entries_[at + 1];
+    }
   }
 
   // How many went.
   std::size_t drop_too_old(std::uint32_t tick) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count_; ++i) {
-      if (tick - entries_[i].since < transmit_timeout_ticks) {
+      if (!entries_[i].is_too_old(tick)) {
         entries_[kept++] = entries_[i];
       }
     }
@@ -58,7 +61,6 @@ class TransmitQueue {
     count_ = kept;
     return dropped;
   }
-
   std::size_t clear() {
     const std::size_t dropped = count_;
     count_ = 0;
@@ -66,12 +68,24 @@ class TransmitQueue {
   }
 
  private:
-  struct Entry {
-    can::Frame frame;
-    std::uint32_t since = 0;
-  };
+  template <class GoesFirst>
+  bool insert(const Waiting& waiting, GoesFirst goes_first) {
+    std::size_t at = 0;
+    while (at < count_ && goes_first(entries_[at].frame)) {
+      ++at;
+    }
+    if (at == capacity) {
+      return false;
+    }
+    count_ += count_ < capacity ? 1 : 0;
+    for (std::size_t to = count_ - 1; to > at; --to) {
+      entries_[to] = entries_[to - 1];
+    }
+    entries_[at] = waiting;
+    return true;
+  }
 
-  std::array<Entry, capacity> entries_{};
+  std::array<Waiting, capacity> entries_{};
   std::size_t count_ = 0;
 };
 

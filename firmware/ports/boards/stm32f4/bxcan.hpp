@@ -28,13 +28,12 @@
 #include <utility>
 
 #include "firmware/ports/bare_metal/can_bus.hpp"
+#include "firmware/ports/bare_metal/can_driver/transmit_queue.hpp"
 #include "firmware/ports/boards/stm32f4/bxcan_registers.hpp"
 #include "firmware/ports/boards/stm32f4/registers.hpp"
-#include "firmware/ports/boards/stm32f4/transmit_queue.hpp"
 
 namespace striker::stm32f4 {
 
-inline constexpr std::uint32_t transmit_timeout_ms = 10;
 inline constexpr std::uint32_t longest_rest_ms = 256;
 
 template <class Registers>
@@ -66,7 +65,7 @@ class BxCan {
   // False off the bus, and where as many frames wait that are at least as urgent.
   bool try_send(const can::Frame& frame, std::uint32_t now_ms) {
     serve(now_ms);
-    if (!is_on_bus() || !queue_.add({.frame = frame, .since_ms = now_ms})) {
+    if (!is_on_bus() || !queue_.add({.frame = frame, .since_tick = now_ms})) {
       return false;
     }
     fill_mailboxes();
@@ -129,7 +128,7 @@ class BxCan {
   enum class Phase : std::uint8_t { entering, resting, joining, joined };
 
   struct Mailbox {
-    Waiting waiting;
+    bare_metal::Waiting waiting;
     bool is_used = false;
     bool is_taken_back = false;
     bool goes_again = false;
@@ -211,17 +210,11 @@ class BxCan {
   }
 
   void take_back_old(std::uint32_t now_ms) {
-    const auto is_old = [&](const Waiting& waiting) {
-      return now_ms - waiting.since_ms >= transmit_timeout_ms;
-    };
-    for (std::size_t at = queue_.size(); at-- > 0;) {
-      if (is_old(queue_[at])) {
-        queue_.remove(at);
-      }
-    }
+    queue_.drop_too_old(now_ms);
     for (std::uint32_t i = 0; i < mailboxes_.size(); ++i) {
       const Mailbox& mailbox = mailboxes_[i];
-      if (mailbox.is_used && is_old(mailbox.waiting) && (!mailbox.is_taken_back || mailbox.goes_again)) {
+      if (mailbox.is_used && mailbox.waiting.is_too_old(now_ms) &&
+          (!mailbox.is_taken_back || mailbox.goes_again)) {
         take_back(i, false);
       }
     }
@@ -259,7 +252,7 @@ class BxCan {
     }
   }
 
-  void put(std::uint32_t i, const Waiting& waiting) {
+  void put(std::uint32_t i, const bare_metal::Waiting& waiting) {
     mailboxes_[i] = {.waiting = waiting, .is_used = true};
     const auto words = std::bit_cast<std::array<std::uint32_t, 2>>(waiting.frame.data);
     const std::uint32_t mailbox = can1::transmit_mailbox(i);
@@ -292,7 +285,7 @@ class BxCan {
   std::uint32_t bus_offs_ = 0;
   std::uint32_t off_since_ms_ = 0;
   std::uint32_t rest_ms_ = 0;  // the next one's, but for the doubling; 0 once a frame was sent
-  TransmitQueue queue_;
+  bare_metal::TransmitQueue queue_;
   std::array<Mailbox, 3> mailboxes_{};
   std::array<can::Frame, ring_frames> ring_{};
   volatile std::uint32_t received_ = 0;  // the interrupt's alone to write

@@ -87,7 +87,7 @@ class ZynqmpCan {
 
   bool try_send(const can::Frame& frame, std::uint32_t tick) {
     serve(tick);
-    const bool taken = !is_off_ && queue_.add(frame, tick);
+    const bool taken = !is_off_ && queue_.add({.frame = frame, .since_tick = tick});
     serve(tick);
     return taken;
   }
@@ -191,19 +191,19 @@ class ZynqmpCan {
       in_fifo_ = put(CanRegister::transmit_fifo);
       registers_.write(CanRegister::clear_events, can_bits::transmit_empty);
     }
-    if (!queue_.empty() && !in_urgent_.is_there && queue_.front().id < in_fifo_.id) {
+    if (!queue_.empty() && !in_urgent_.is_there && queue_[0].frame.id < in_fifo_.id) {
       in_urgent_ = put(CanRegister::transmit_urgent);
     }
   }
 
   Pending put(CanRegister buffer) {
-    const FrameWords words = Words::encode(queue_.front());
+    const FrameWords words = Words::encode(queue_[0].frame);
     registers_.write(buffer, words.id, 0);
     registers_.write(buffer, words.length, 1);
     registers_.write(buffer, words.data1, 2);
     registers_.write(buffer, words.data2, 3);
-    const Pending pending = {.is_there = true, .id = queue_.front().id, .since = queue_.front_since()};
-    queue_.pop();
+    const Pending pending = {.is_there = true, .id = queue_[0].frame.id, .since = queue_[0].since_tick};
+    queue_.remove(0);
     return pending;
   }
 
