@@ -53,6 +53,8 @@ bool put(char letter) {
 
 extern "C" void own_letter_received() {
   using namespace own_can;
+  // Before the letters are read: one that comes after them asks again.
+  port.interrupt = 1U << 1U;
   while ((port.state & receive_full) != 0) {
     Frame frame;
     if (reader.take(static_cast<char>(port.data & 0xFFU), frame) && frames_received - taken < room) {
@@ -60,7 +62,6 @@ extern "C" void own_letter_received() {
       frames_received = frames_received + 1;
     }
   }
-  port.interrupt = 1U << 1U;
 }
 
 namespace striker::bare_metal {
