@@ -54,10 +54,10 @@ def from_slcan(line):
 
 
 class SlcanBridge:
-    """Between a serial port, as a connected socket, and a CAN interface: a thread each way, until the port closes."""
+    """Between a serial port, as an open file descriptor, and a CAN interface: a thread each way, until the port closes."""
 
-    def __init__(self, serial, interface):
-        self._serial = serial
+    def __init__(self, port, interface):
+        self._port = port
         self._can = open_can(interface)
         self._threads = [threading.Thread(target=loop, daemon=True) for loop in (self._to_board, self._from_board)]
         for thread in self._threads:
@@ -66,15 +66,16 @@ class SlcanBridge:
     def _to_board(self):
         try:
             while True:
-                if line := to_slcan(self._can.recv(16)):
-                    self._serial.sendall(line)
+                line = to_slcan(self._can.recv(16))
+                while line:
+                    line = line[os.write(self._port, line):]
         except OSError:
             return  # closed
 
     def _from_board(self):
         waiting = b""
         try:
-            while received := self._serial.recv(65536):
+            while received := os.read(self._port, 65536):
                 *lines, waiting = (waiting + received).split(b"\r")
                 for packet in filter(None, map(from_slcan, lines)):
                     self._can.send(packet)
@@ -82,19 +83,19 @@ class SlcanBridge:
             return
 
     def close(self):
-        self._serial.close()
         self._can.close()
 
 
 class Board:
     """`with Board(entry of boards.json, image, interface, folder) as board:` runs it; the end of the block ends it.
-    `counts`: virtual time counts instructions, one a nanosecond (-icount shift=0)."""
+    `counts`: virtual time counts instructions, one a nanosecond (-icount shift=0).
+    Without an interface a board that speaks slcan has its serial port in `serial`, for a bridge elsewhere."""
 
     def __init__(self, board, image, interface, folder, counts=True):
         self._board, self._image, self._interface, self._folder = board, image, interface, folder
         self._counts = counts
         self._is_bridged = not board["qemu"]["can"]
-        self._bridge = self._control = None
+        self.serial = self._bridge = self._control = None
         self.symbols = stack_usage.symbols(image)
 
     def path(self, name):
@@ -119,7 +120,9 @@ class Board:
             self._process = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         try:
             if self._is_bridged:
-                self._bridge = SlcanBridge(self._connect("serial"), self._interface)
+                self.serial = self._connect("serial")
+                if self._interface:
+                    self._bridge = SlcanBridge(self.serial.fileno(), self._interface)
             self._control = self._connect("qmp")
             self._control.settimeout(START_LIMIT_S)
             self._stream = self._control.makefile("rw")
@@ -138,7 +141,7 @@ class Board:
     def __exit__(self, *_):
         self._process.kill()
         self._process.wait()
-        for end in (self._bridge, self._control):
+        for end in (self._bridge, self.serial, self._control):
             if end is not None:
                 end.close()
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""tools/pil from outside: the R5 gives the kicks of the run in one process, and nothing is left behind.
+"""tools/pil from outside: boards give the kicks of the run in one process, and nothing is left behind.
 Usage: pil_test.py BUILD_FOLDER [TEST...]"""
 
 import contextlib
@@ -48,8 +48,20 @@ class Pil(unittest.TestCase):
     def command(self, *arguments):
         return [PIL, "--no-sil-build", "--build-dir", BUILD, "--out", self.out, *arguments]
 
-    def test_the_r5_on_its_can_gives_the_same_bytes(self):
-        done = subprocess.run(self.command("--board", "zcu102-r5", "--episodes", "2"), capture_output=True, text=True, check=False)
+    def test_zcu102_r5_on_its_can_gives_the_same_bytes(self):
+        self.gives_the_same_bytes("zcu102-r5")
+
+    def test_mps2_an386_over_slcan_gives_the_same_bytes(self):
+        self.gives_the_same_bytes("mps2-an386")
+
+    def test_mps2_an500_over_slcan_gives_the_same_bytes(self):
+        self.gives_the_same_bytes("mps2-an500")
+
+    def test_netduinoplus2_over_slcan_gives_the_same_bytes(self):
+        self.gives_the_same_bytes("netduinoplus2")
+
+    def gives_the_same_bytes(self, board):
+        done = subprocess.run(self.command("--board", board, "--episodes", "2"), capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         print(done.stdout)
         for row in ("actions", "wheel commands", "rewards", "frames"):

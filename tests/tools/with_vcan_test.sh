@@ -65,6 +65,25 @@ kill -s TERM $!
 wait $! && status=0 || status=$?
 check "SIGTERM is passed on" test "$status $(<../out)" = "9 caught"
 
+# A socket whose other end gives everything back.
+with_line() {
+  /usr/bin/python3 -c '
+import os, socket, subprocess, sys, threading
+here, there = socket.socketpair()
+os.dup2(there.fileno(), 21)
+def give_back():
+    while letters := here.recv(4096):
+        here.sendall(letters)
+threading.Thread(target=give_back, daemon=True).start()
+sys.exit(subprocess.run(sys.argv[1:], pass_fds=[21]).returncode)' "$@"
+}
+# All bytes, those that a terminal might take for itself too.
+printf '%b' "$(printf '\\x%02x' {0..255})" >letters
+for _ in {1..40}; do cat letters; done >sent
+check "a serial line leads out and back" cmp sent <(with_line "${run[@]}" --line 21 bash -c 'cat sent >&21 & head -c 10240 <&21')
+check "a line that is not open is wrong use" test "$(status_of "${run[@]}" --line 77 true)" = 2
+check "a line of the guest's own is wrong use" test "$(status_of "${run[@]}" --line 1 true)" = 2
+
 check "SIGTERM before the command starts" test "$(status_of timeout 0.3 "${run[@]}" sleep 60)" = 124
 check "a reader that goes away ends it" test "$("${run[@]}" yes | head -n 1)" = y
 check "inside itself" test "$(status_of "${run[@]}" "$with_vcan" bash -c 'exit 7')" = 7
