@@ -3,8 +3,8 @@
 
 Of the bus (pil_faults.toml): striker-sil's own fault runs, whose table has to be that of the run in one process.
 Of lockstep and of the processor: while the wheels are driven SYNC stops, the board is reset, its weights are altered,
-it takes an undefined instruction, or its stack overflows. From there on nothing may carry torque; after a reset
-nothing may move before it is armed again; and the bus and the fault record have to tell the cause."""
+its driver tells bus-off, it takes an undefined instruction, or its stack overflows. From there on nothing may carry torque;
+after a reset nothing may move before it is armed again; and the bus and the fault record have to tell the cause."""
 
 import contextlib
 import json
@@ -33,6 +33,7 @@ LIMIT_S = 120
 
 UNDEFINED = b"\x00\xde"               # udf #0
 PUSH_FOR_EVER = b"\xf0\xb5\xfd\xe7"   # push {r4-r7, lr}; b .-2
+BUS_OFF = b"\x02\x20\x70\x47"         # movs r0, #2; bx lr: BusHealth::bus_off
 
 
 class Failure(Exception):
@@ -160,6 +161,26 @@ def weights(run):
     return "told policy_corrupt, torque 0"
 
 
+def bus_off(run):
+    """QEMU's CAN controllers count no errors: the driver is made to tell that it is off the bus, and then that it is back."""
+    with run.debugger() as debugger:
+        at = run.symbol("can_health") & ~1
+        driver = debugger.read(at, len(BUS_OFF))
+        debugger.write(at, BUS_OFF)
+        begin = len(run.bus.frames)
+        debugger.go()
+        reported = run.bus.wait_for("fault report", is_report, begin)
+        expect(code(run.bus.frames[reported]) == "bus_off", f"told {code(run.bus.frames[reported])}")
+        time.sleep(0.5)
+        run.rest(reported)
+        debugger.stop()
+        debugger.write(at, driver)
+        back = len(run.bus.frames)
+        debugger.go()
+        run.rest_until_armed(back)
+    return "told bus_off, torque 0; back on the bus nothing moved until it was armed again"
+
+
 def broken(run, instructions, cause):
     with run.debugger() as debugger:
         debugger.run_to(run.symbol("receive_can") & ~1)
@@ -190,7 +211,7 @@ def stack_overflow(run):
     return broken(run, PUSH_FOR_EVER, "stack overflow")
 
 
-CASES = {"SYNC lost": sync_lost, "reset in mid-run": reset, "altered weights": weights,
+CASES = {"SYNC lost": sync_lost, "reset in mid-run": reset, "altered weights": weights, "bus-off": bus_off,
          "undefined instruction": undefined_instruction, "stack overflow": stack_overflow}
 
 

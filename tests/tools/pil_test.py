@@ -71,6 +71,13 @@ class Pil(unittest.TestCase):
         self.assertLessEqual(deep, bound)
         self.assertLessEqual(bound, room)
 
+    def test_the_r5_withstands_faults(self):
+        done = subprocess.run(self.command("--faults"), capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(re.findall(r"(?m)^ok: ([^:]*)", done.stdout),
+                         ["vision lost", "corrupt frames", "babble on WheelState", "SYNC lost", "reset in mid-run", "altered weights",
+                          "bus-off", "undefined instruction", "stack overflow"])
+
     def test_an_interrupt_ends_everything(self):
         with subprocess.Popen(self.command("--episodes", "60"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
             for _ in range(3000):
