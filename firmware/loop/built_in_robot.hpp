@@ -40,6 +40,10 @@ static_assert(core::loops_fit(built_in_robot),
 static_assert(can::in_range(built_in_wiring),
               "STRIKER DRIVES: a number of the drives is out of range, or both wheels have one node: "
               "striker-robot check FILE says which");
+static_assert(can::torque_fits(built_in_wiring, built_in_description.torque_limit_mNm) &&
+                  can::speed_fits(built_in_wiring, core::greatest_measured_mm_s),
+              "STRIKER DRIVES: torque or speed does not fit the drives' numbers: striker-robot check FILE "
+              "says which");
 static_assert(built_in_wiring.identifier_base == can::identifier_base,
               "STRIKER DRIVES: identifier_base is not the one that this file is compiled with "
               "(STRIKER_CAN_BASE)");

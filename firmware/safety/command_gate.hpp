@@ -64,6 +64,9 @@ class CommandGate {
   void take(std::span<const can::Frame> frames, std::uint32_t tick) {
     confirmation_ = {};
     bool disarmed = false;
+    if constexpr (is_foreign) {
+      wheels_.begin_tick();
+    }
     for (const can::Frame& frame : frames) {
       if (Drives::owns(frame)) {
         take_wheels(frame, tick - frame.age_ms);

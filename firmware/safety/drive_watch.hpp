@@ -15,6 +15,9 @@ namespace striker::safety {
 
 class DriveWatch {
  public:
+  // Before a tick's frames.
+  void begin_tick() { wheels_[0].fell = wheels_[1].fell = false; }
+
   void take(const can::DriveNews& news, std::uint32_t received_tick) {
     Wheel& wheel = wheels_[news.wheel & 1U];
     if (news.verdict != can::Verdict::accepted) {
@@ -26,6 +29,7 @@ class DriveWatch {
     }
     if (news.is_enabled) {
       wheel.is_enabled = *news.is_enabled;
+      wheel.fell = wheel.fell || !wheel.is_enabled;
       wheel.told_tick = received_tick;
     }
   }
@@ -36,8 +40,9 @@ class DriveWatch {
   }
   // Asked where torque is wanted.
   [[nodiscard]] bool enabled(std::uint32_t tick, std::uint32_t limit_ticks) const {
-    return both(
-        [&](const Wheel& wheel) { return wheel.is_enabled && tick - wheel.told_tick <= limit_ticks; });
+    return both([&](const Wheel& wheel) {
+      return wheel.is_enabled && !wheel.fell && tick - wheel.told_tick <= limit_ticks;
+    });
   }
 
  private:
@@ -46,6 +51,7 @@ class DriveWatch {
     std::uint32_t told_tick = 0;
     bool has_speed = false;
     bool is_enabled = false;
+    bool fell = false;  // it told in this tick that it is not, whatever it told after
   };
 
   template <class Predicate>

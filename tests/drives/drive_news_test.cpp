@@ -2,6 +2,8 @@
 // What single frames of ODrives and of drives of CiA 402 are taken for; bytes written down from the manuals.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "firmware/can/drives/cia402_drives.hpp"
 #include "firmware/can/drives/odrive_drives.hpp"
 
@@ -65,6 +67,36 @@ TEST(Cia402News, AnEmergencyAndANodeThatIsNotOperationalAreNotEnabled) {
   EXPECT_EQ(Cia402::news_of({.id = 0x081, .length = 8}).is_enabled, std::nullopt) << "the error is over";
   EXPECT_EQ(Cia402::news_of({.id = 0x702, .length = 1, .data = {0x7F}}).is_enabled, false);
   EXPECT_EQ(Cia402::news_of({.id = 0x702, .length = 1, .data = {0x05}}).is_enabled, std::nullopt);
+}
+
+// Against the exact quotient, for gears, wheels and encoders from one end of their ranges to the other.
+template <std::int32_t radius_um, std::int32_t gear_percent, std::int32_t counts>
+void expect_right_speeds() {
+  constexpr DriveWiring wiring = {.left_node = 1,
+                                  .right_node = 2,
+                                  .gear_percent = gear_percent,
+                                  .counts_per_turn = counts,
+                                  .wheel_radius_um = radius_um};
+  for (std::int32_t speed_mm_s = -7'900; speed_mm_s <= 7'900; speed_mm_s += 79) {
+    const double counts_per_s = std::round(speed_mm_s * 1e3 / wiring.rim_um_per_turn() * counts);
+    if (std::abs(counts_per_s) > 0x7FFF'FFFF) {
+      continue;
+    }
+    Frame frame = {.id = 0x181, .length = 6};
+    put_little_endian_32(frame, 2, static_cast<std::uint32_t>(static_cast<std::int32_t>(counts_per_s)));
+    const double exact_mm_s = counts_per_s / counts * wiring.rim_um_per_turn() * 1e-3;
+    ASSERT_NEAR(Cia402Drives<wiring>::news_of(frame).speed_mm_s.value_or(99'999), exact_mm_s, 0.51)
+        << radius_um << " um, gear " << gear_percent << ", " << counts;
+  }
+}
+
+TEST(Cia402News, SpeedsAreExactForEveryGearAndEncoder) {
+  expect_right_speeds<10'900, 10'000, 10'000'000>();
+  expect_right_speeds<40'000, 10'000, 1 << 23>();
+  expect_right_speeds<40'000, 500, 16'384>();
+  expect_right_speeds<40'000, 100, 100>();
+  expect_right_speeds<500'000, 10, 100>();
+  expect_right_speeds<500'000, 10, 10'000'000>();
 }
 
 // What the drive is told is never more than was wanted, and the gate never sees less than that.

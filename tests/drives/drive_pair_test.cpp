@@ -127,5 +127,21 @@ TEST(DriveWatch, AsksForSpeedsAndStatesOfBothWithTheirAges) {
   EXPECT_FALSE(watch.enabled(137, 35)) << "a frame that is not believed";
 }
 
+TEST(DriveWatch, WhoToldThatItIsNotEnabledIsNotInThatTick) {
+  safety::DriveWatch watch;
+  watch.begin_tick();
+  for (const std::size_t wheel : {left_wheel, right_wheel}) {
+    watch.take(state(wheel, true), 100);
+  }
+  EXPECT_TRUE(watch.enabled(100, 35));
+  watch.begin_tick();
+  watch.take(state(right_wheel, false), 101);
+  watch.take(state(right_wheel, true), 101);
+  EXPECT_FALSE(watch.enabled(101, 35));
+  watch.begin_tick();
+  EXPECT_TRUE(watch.enabled(102, 35))
+      << "what it told last counts again; the controller has told a fault by then";
+}
+
 }  // namespace
 }  // namespace striker::can

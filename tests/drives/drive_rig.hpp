@@ -51,8 +51,9 @@ inline std::unique_ptr<ControllerLink> make_link(can::DriveKind kind) {
 
 class DriveRig {
  public:
-  explicit DriveRig(can::DriveKind kind)
-      : drives(make_drives(wiring_of(kind))),
+  explicit DriveRig(can::DriveKind kind) : DriveRig(kind, make_drives(wiring_of(kind))) {}
+  DriveRig(can::DriveKind kind, std::unique_ptr<WheelDrives> wheel_drives)
+      : drives(std::move(wheel_drives)),
         link_(make_link(kind)),
         plants_(make_plants(PlantKind::drive, robot_spec(Role::forward), {})),
         camera_(make_camera({}, 1)),
@@ -66,6 +67,9 @@ class DriveRig {
     undriven = scenario.undriven();
     return scenario.outcomes();
   }
+
+  // To the controller, with the next tick.
+  void queue(const can::Frame& frame) { seat_.queue(frame); }
 
   std::unique_ptr<WheelDrives> drives;
   std::vector<std::uint64_t> undriven;  // of the last play

@@ -85,6 +85,13 @@ TEST(RobotFile, WhatIsWrongIsNamedWithItsPlace) {
        "line 9: drive_left_node = 128 must be a whole number from 0 to 127"},
       {sound + "drive_left_node = 2\n", "drive_left_node and drive_right_node are both 2"},
       {sound + "identifier_base = 4\n", "identifier_base = 4 must be a multiple of 8"},
+      {sound + "drives = \"cia402\"\ndrive_rated_torque_mNm = 100_000\ndrive_gear_percent = 500\n",
+       "torque_limit_mNm = 600 is 1 per mille of the motor's rated torque at the wheel, which must be 20 to 32767"},
+      {sound + "drives = \"cia402\"\ndrive_rated_torque_mNm = 10\ndrive_gear_percent = 10\n",
+       "torque_limit_mNm = 600 is 600000 per mille"},
+      {sound + "drives = \"cia402\"\ndrive_gear_percent = 10_000\ndrive_rated_torque_mNm = 10\n"
+               "drive_counts_per_turn = 10_000_000\n",
+       "drive_counts_per_turn = 10000000 makes "},
       {"= 3", "line 1: "}};
   for (const auto& [text, expected] : cases) {
     const std::string problem = problem_of(text);

@@ -3,15 +3,17 @@
 // two PDOs, in cyclic synchronous torque mode. The controller is the NMT master and the producer of SYNC.
 //
 //   0x000         NMT             start node; when a heartbeat tells that it is not operational
-//   0x080         SYNC            every tick, after the PDOs: the drives act on them, and measure
-//   0x200 + node  RPDO1, 5 bytes  6040h control word, 6071h target torque (int16, per mille of 6076h), 6060h mode 10
+//   0x080         SYNC            every tick but those of a start: the drives measure
+//   0x200 + node  RPDO1, 5 bytes  6040h control word, 6071h target torque (int16, per mille of 6076h), 6060h mode 10;
+//                                 transmission type 255: acts as it comes, whatever becomes of SYNC
 //   0x180 + node  TPDO1, 6 bytes  6041h status word, 606Ch velocity (int32); transmission type 1: on every SYNC
 //   0x080 + node  EMCY            an error code but 0 counts as an error
 //   0x700 + node  heartbeat       NMT state; producer time (1017h) 10 ms
 //
-// Settings of each drive (SDO, or its maker's tool): the mapping above (1600h, 1A00h), 1400h:2 and 1800h:2 = 1, 1017h = 10,
-// the consumer's heartbeat or a time-out of the PDO (1400h:5) with torque 0 as its reaction (6007h, 605Eh): without one the
-// wheel goes on turning when commands stop. firmware/can/drives/cia402.eds has the entries.
+// Settings of each drive (SDO, or its maker's tool): the mapping above (1600h, 1A00h), 1400h:2 = 255, 1800h:2 = 1, 1017h = 10,
+// and a time-out of the RPDO (1400h:5) with torque 0 as its reaction (6007h, 605Eh): without it the wheel goes on turning
+// when commands stop. With an RPDO that waits for SYNC (1400h:2 = 1) a lost SYNC would hold the torque, a fault's 0 and an
+// emergency stop too, and none would come late enough for a time-out. firmware/can/drives/cia402.eds has the entries.
 //
 // States: the status word leads through switch on disabled, ready to switch on, switched on, operation enabled, one control
 // word a step, when the controller becomes active; a fault is reset then, once. Otherwise it is shutdown: no torque.
@@ -144,9 +146,11 @@ class Cia402Drives {
     const core::WheelTorques torque = pair_.follows() ? command.torque : core::WheelTorques{};
     frames.add(command_frame(left_wheel, control_word(left_wheel), torque.left_mNm));
     frames.add(command_frame(right_wheel, control_word(right_wheel), torque.right_mNm));
+    no_start_ticks_ -= no_start_ticks_ > 0 ? 1 : 0;
     for (const std::size_t i : {left_wheel, right_wheel}) {
-      if (wheels_[i].has_to_start) {
+      if (wheels_[i].has_to_start && no_start_ticks_ == 0) {
         wheels_[i].has_to_start = false;
+        no_start_ticks_ = state_period_ticks;
         frames.add(start_frame(i));
         return;
       }
@@ -214,11 +218,7 @@ class Cia402Drives {
   };
 
   // 1,000 per mille of the motor's rated torque, times the gear, in 1/100 mNm.
-  static constexpr std::int32_t rated_at_wheel = [] {
-    constexpr std::int64_t torque = std::int64_t{wiring.rated_torque_mNm} * wiring.gear_percent;
-    static_assert(torque <= 60'000'000, "STRIKER DRIVES: the rated torque at the wheel is 600 Nm at most");
-    return static_cast<std::int32_t>(torque);
-  }();
+  static constexpr std::int64_t rated_at_wheel = std::int64_t{wiring.rated_torque_mNm} * wiring.gear_percent;
   static constexpr std::int32_t hundredths = 100'000;
 
   static constexpr std::size_t wheel_at(std::uint16_t identifier) {
@@ -256,11 +256,25 @@ class Cia402Drives {
     return frame;
   }
 
+  // Of the rim, for a count of the motor, with so many bits behind the point.
+  static constexpr std::int64_t um_of_count(std::uint32_t bits) {
+    return ((std::int64_t{wiring.rim_um_per_turn()} << bits) + wiring.counts_per_turn / 2) /
+           wiring.counts_per_turn;
+  }
+  // As many as leave a count's um in 31 bits, so that its product with 32 fits 64.
+  static constexpr std::uint32_t um_bits() {
+    std::uint32_t bits = 1;
+    while (bits < 40 && um_of_count(bits + 1) < std::int64_t{1} << 31U) {
+      ++bits;
+    }
+    return bits;
+  }
+
   static std::optional<std::int32_t> speed_of(std::size_t wheel, std::uint32_t counts_per_s) {
-    constexpr std::int64_t um_q16 =
-        (std::int64_t{wiring.rim_um_per_turn()} * 65'536 + wiring.counts_per_turn / 2) /
-        wiring.counts_per_turn;
-    const std::int64_t speed_um_s = (static_cast<std::int32_t>(counts_per_s) * um_q16 + 32'768) >> 16;
+    constexpr std::uint32_t bits = um_bits();
+    constexpr std::int64_t um = um_of_count(bits);
+    const std::int64_t speed_um_s =
+        (static_cast<std::int32_t>(counts_per_s) * um + (std::int64_t{1} << (bits - 1))) >> bits;
     constexpr std::int64_t greatest = std::int64_t{1'000} * core::greatest_measured_mm_s;
     return speed_um_s < -greatest || speed_um_s > greatest
                ? std::nullopt
@@ -282,6 +296,8 @@ class Cia402Drives {
 
   DrivePair pair_;
   std::array<Wheel, 2> wheels_{};
+  std::uint32_t no_start_ticks_ =
+      0;  // a start takes SYNC's place: not more often than a drive tells that it wants one
 };
 
 }  // namespace striker::can

@@ -4,7 +4,7 @@
 //
 // Promise, with drives that tell their state every `state_period_ticks` (10 ms) at most: while the controller is active,
 // a drive that tells of an error or is not enabled any more is the fault drives_cut, and one that is not heard any more is
-// wheel_state_lost, within 3 of these periods (tests/drives/drive_fault_test.cpp). One that does not come up within
+// wheel_state_lost, within 3 of these periods, also if the same tick's next frame tells that it is enabled (tests/drives/drive_fault_test.cpp). One that does not come up within
 // `settle_ticks` of being wanted is drives_cut too. While it is not wanted, a drive may do as it likes.
 #pragma once
 
@@ -33,6 +33,7 @@ class DrivePair {
     if (news.is_enabled) {
       wheel.told_tick = received_tick;
       wheel.is_enabled = *news.is_enabled;
+      wheel.fell = wheel.fell || !wheel.is_enabled;
       wheel.rests = news.rests;
       wheel.was_enabled = wheel.was_enabled || (wheel.is_enabled && is_prepared(received_tick));
     }
@@ -50,10 +51,11 @@ class DrivePair {
   [[nodiscard]] core::Faults judge(std::uint32_t tick) {
     tick_ = tick;
     core::Faults faults = 0;
-    for (const Wheel& wheel : wheels_) {
+    for (Wheel& wheel : wheels_) {
       const bool should_be = wheel.was_enabled || tick - wanted_tick_ > settle_ticks;
-      faults |= core::set_if(should_be && !wheel.is_enabled, core::Fault::drives_cut) |
+      faults |= core::set_if(should_be && (!wheel.is_enabled || wheel.fell), core::Fault::drives_cut) |
                 core::set_if(tick - wheel.told_tick > silence_ticks, core::Fault::wheel_state_lost);
+      wheel.fell = false;
     }
     return is_wanted_ ? faults : 0;
   }
@@ -88,6 +90,7 @@ class DrivePair {
     bool has_speed = false;  // since the last pair
     bool is_enabled = false;
     bool was_enabled = false;  // since it is wanted
+    bool fell = false;         // it told of an error or a stop in this tick, whatever it told after
     bool rests = true;
   };
 

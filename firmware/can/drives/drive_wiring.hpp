@@ -84,4 +84,26 @@ inline constexpr std::array wiring_keys = {
   return wiring.left_node != wiring.right_node && wiring.identifier_base % 8 == 0;
 }
 
+// CiA 402 has 16 bits for a torque in per mille of the motor's rated one, and 32 for a velocity in counts a second.
+inline constexpr std::int64_t least_limit_per_mille = 20;  // a step of the torque is then 5 % of the limit
+inline constexpr std::int64_t greatest_limit_per_mille = 32'767;
+
+[[nodiscard]] constexpr std::int64_t limit_per_mille(const DriveWiring& wiring,
+                                                     std::int32_t torque_limit_mNm) {
+  return std::int64_t{torque_limit_mNm} * 100'000 /
+         (std::int64_t{wiring.rated_torque_mNm} * wiring.gear_percent);
+}
+[[nodiscard]] constexpr std::int64_t counts_per_s(const DriveWiring& wiring, std::int32_t rim_speed_mm_s) {
+  return std::int64_t{rim_speed_mm_s} * 1'000 * wiring.counts_per_turn / wiring.rim_um_per_turn();
+}
+
+[[nodiscard]] constexpr bool torque_fits(const DriveWiring& wiring, std::int32_t torque_limit_mNm) {
+  const std::int64_t limit = limit_per_mille(wiring, torque_limit_mNm);
+  return wiring.kind != DriveKind::cia402 ||
+         (limit >= least_limit_per_mille && limit <= greatest_limit_per_mille);
+}
+[[nodiscard]] constexpr bool speed_fits(const DriveWiring& wiring, std::int32_t greatest_mm_s) {
+  return wiring.kind != DriveKind::cia402 || counts_per_s(wiring, greatest_mm_s) <= 0x7FFF'FFFF;
+}
+
 }  // namespace striker::can

@@ -4,13 +4,14 @@
 //
 //   to each      0x0E Set_Input_Torque       float Nm of the motor; every tick, 0 as well: it feeds the drive's watchdog
 //                0x18 Clear_Errors, 0x0B Set_Controller_Mode (torque, passthrough), 0x07 Set_Axis_State (closed loop):
-//                                            in this order, a frame a tick, when the controller becomes active
+//                                            in this order, a frame a tick, when the controller becomes active;
+//                                            the mode again every 45 ms, since no frame tells which one it is in
 //                0x07 Set_Axis_State (idle)  when it ends, and whenever a drive tells of closed loop then
 //   from each    0x09 Get_Encoder_Estimates  float turns, float turns/s of the motor; every 1 ms
 //                0x01 Heartbeat              error, axis state; every 10 ms
 //                0x03 Get_Error              if it is sent: an active error counts
 //
-// Settings of each drive (odrivetool): can.node_id; axis.config.can.encoder_msg_rate_ms = 1 and heartbeat_msg_rate_ms = 10;
+// Settings of each drive (odrivetool): can.node_id; controller.config.control_mode = 1 and input_mode = 1; axis.config.can.encoder_msg_rate_ms = 1 and heartbeat_msg_rate_ms = 10;
 // axis.config.enable_watchdog = True and watchdog_timeout = 0.01: without them the wheel goes on turning when commands stop.
 //
 // Rounding: a speed is the exact product of the float and the rim's um a turn, to the nearest um/s, then to the nearest
@@ -175,6 +176,9 @@ class OdriveDrives {
   static constexpr std::uint32_t mNm_per_motor_Nm = 10 * static_cast<std::uint32_t>(wiring.gear_percent);
   static constexpr std::uint32_t enabling_steps = 6;
   static constexpr std::uint32_t resting_steps = 2;
+  // After those, each wheel's mode again and again: the right one's at an odd step, the left one's at an even one.
+  static constexpr std::uint32_t right_mode_step = 25;
+  static constexpr std::uint32_t left_mode_step = 50;
 
   static constexpr std::size_t wheel_at(std::uint16_t identifier) {
     return identifier >> 5U == wiring.left_node ? left_wheel : right_wheel;
@@ -201,6 +205,10 @@ class OdriveDrives {
                     binary32_of_ratio(wiring.sign(wheel) * torque_mNm, mNm_per_motor_Nm));
   }
 
+  static Frame mode_frame(std::size_t wheel) {
+    return frame_of(wheel, odrive::set_controller_mode, odrive::torque_control, odrive::passthrough);
+  }
+
   static std::optional<std::int32_t> speed_of(std::size_t wheel, std::uint32_t turns,
                                               std::uint32_t turns_per_s) {
     const bool is_number = (turns >> 23U & 0xFFU) != 0xFFU;
@@ -218,15 +226,16 @@ class OdriveDrives {
       next_step_ = next_step_ < resting_steps + 1 ? next_step_ + 1 : resting_steps;
       return;
     }
+    const std::size_t wheel = next_step_ % 2;
     if (next_step_ < enabling_steps) {
-      const std::size_t wheel = next_step_ % 2;
       const std::uint32_t step = next_step_ / 2;
       frames.add(step == 0   ? frame_of(wheel, odrive::clear_errors, 0)
-                 : step == 1 ? frame_of(wheel, odrive::set_controller_mode, odrive::torque_control,
-                                        odrive::passthrough)
+                 : step == 1 ? mode_frame(wheel)
                              : frame_of(wheel, odrive::set_axis_state, odrive::closed_loop));
-      ++next_step_;
+    } else if (next_step_ == right_mode_step || next_step_ == left_mode_step) {
+      frames.add(mode_frame(wheel));
     }
+    next_step_ = next_step_ < left_mode_step ? next_step_ + 1 : enabling_steps;
   }
 
   DrivePair pair_;

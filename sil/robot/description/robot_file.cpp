@@ -102,6 +102,22 @@ DriveWiring wiring_of(const toml::table& table, const RobotDescription& robot, c
   if (wiring.identifier_base % 8 != 0) {
     fail(file, fmt::format("identifier_base = {} must be a multiple of 8", wiring.identifier_base));
   }
+  if (!can::torque_fits(wiring, robot.torque_limit_mNm)) {
+    fail(file,
+         fmt::format(
+             "torque_limit_mNm = {} is {} per mille of the motor's rated torque at the wheel, which must be "
+             "{} to {}: look at drive_rated_torque_mNm and drive_gear_percent",
+             robot.torque_limit_mNm, can::limit_per_mille(wiring, robot.torque_limit_mNm),
+             can::least_limit_per_mille, can::greatest_limit_per_mille));
+  }
+  if (!can::speed_fits(wiring, core::greatest_measured_mm_s)) {
+    fail(file,
+         fmt::format(
+             "drive_counts_per_turn = {} makes {} counts/s of the greatest speed that is measured, {} mm/s, "
+             "which do not fit 32 bits: look at it, drive_gear_percent and wheel_radius_um",
+             wiring.counts_per_turn, can::counts_per_s(wiring, core::greatest_measured_mm_s),
+             core::greatest_measured_mm_s));
+  }
   return wiring;
 }
 

@@ -33,20 +33,19 @@ void Cia402Drives::take(const can::Frame& frame, std::uint32_t tick) {
       std::memcpy(&node.torque_per_mille, &frame.data[2], 2);
       node.mode = frame.data[4];
       node.commanded_tick = tick;
+      obey(node);
     } else if (frame.id == 0x080 && frame.length == 0 && node.is_operational) {
-      synchronise(node);
+      node.has_to_tell = true;
     }
   }
   order();
 }
 
 // CiA 402's state machine: transitions 2 to 9 and 15, as far as these control words lead.
-void Cia402Drives::synchronise(Node& node) {
+void Cia402Drives::obey(Node& node) {
   const std::uint32_t low = node.control_word & 0x0FU;
   const bool resets = (node.control_word & 0x80U) != 0 && (node.last_control_word & 0x80U) == 0;
   node.last_control_word = node.control_word;
-  node.acting_per_mille = node.torque_per_mille;
-  node.has_to_tell = true;
   if (node.state == State::fault) {
     node.state = resets ? State::switch_on_disabled : State::fault;
   } else if ((low & 0x02U) == 0) {
@@ -67,7 +66,7 @@ void Cia402Drives::order() {
                          node.mode == cyclic_synchronous_torque;
     const double rated_Nm = wiring_.rated_torque_mNm * 1e-3 * wiring_.gear_percent / 100.0;
     orders_[wheel] = {.torque_Nm =
-                          follows ? wiring_.sign(wheel) * node.acting_per_mille * 1e-3 * rated_Nm : 0.0};
+                          follows ? wiring_.sign(wheel) * node.torque_per_mille * 1e-3 * rated_Nm : 0.0};
   }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two virtual drives of CiA 402 on CANopen, set up as firmware/can/drives/cia402_drives.hpp asks for: RPDO1 and TPDO1 on
-// SYNC, a heartbeat every 10 ms, torque 0 (fault) after 10 ms without an RPDO.
+// Two virtual drives of CiA 402 on CANopen, set up as firmware/can/drives/cia402_drives.hpp asks for: RPDO1 as it comes,
+// TPDO1 on SYNC, a heartbeat every 10 ms, torque 0 (fault) after 10 ms without an RPDO.
 //
-// Kept of real ones: pre-operational after power-on until NMT starts them; PDOs in the state operational alone; the RPDO
-// acts, and the speed is measured, with SYNC; the state machine of the profile, a step a SYNC; a fault until its reset.
+// Kept of real ones: pre-operational after power-on until NMT starts them; PDOs in the state operational alone; the speed is
+// measured with SYNC; the state machine of the profile, a step an RPDO; a fault until its reset.
 #pragma once
 
 #include <array>
@@ -37,8 +37,7 @@ class Cia402Drives final : public ForeignDrives {
     State state = State::switch_on_disabled;
     std::uint16_t control_word = 0;
     std::uint16_t last_control_word = 0;
-    std::int16_t torque_per_mille = 0;  // of the last RPDO,
-    std::int16_t acting_per_mille = 0;  // and of the last SYNC
+    std::int16_t torque_per_mille = 0;
     std::uint8_t mode = 0;
     std::uint32_t commanded_tick = 0;
     std::int32_t counts_per_s = 0;  // as measured last
@@ -46,7 +45,7 @@ class Cia402Drives final : public ForeignDrives {
     bool has_emergency = false;
   };
 
-  void synchronise(Node& node);
+  static void obey(Node& node);
   void order();
 
   can::DriveWiring wiring_;
