@@ -154,7 +154,7 @@ class Checker:
             if back > turns * entering:
                 raise Contradiction(f"{function.name}: the loop at {loop.head:#x} turned {back} times in {entering} entries, not {turns}")
             self.most_turns[(context, loop.head)] = max(self.most_turns.get((context, loop.head), 0), -(-back // entering))
-        for part, edges_back in enumerate(function.irreducible):
+        for part, (_, edges_back) in enumerate(function.irreducible):
             back = sum(edges.get((context, source, target), 0) for source, target in edges_back)
             if back > self.bound.backs[(context, part)] * calls:
                 chain = " > ".join(map(plain_name, self.bound.chain(context)))

@@ -138,11 +138,15 @@ class Bound:
     def _bound_irreducible(self, context, function):
         facts = self._facts("back", context)
         if not facts:
-            self.unbounded.append(f"{function.name}: an irreducible loop at {function.irreducible[0][0][1]:#x}")
-        for part, edges in enumerate(function.irreducible if facts else []):
-            most = self.backs[(context, part)] = min(fact.back_of(part, len(function.irreducible)) for fact in facts)
+            self.unbounded.append(f"{function.name}: an irreducible loop at {function.irreducible[0][1][0][1]:#x}")
+        for number, (part, edges) in enumerate(function.irreducible if facts else []):
+            most = self.backs[(context, number)] = min(fact.back_of(number, len(function.irreducible)) for fact in facts)
             back = [v for source, target in edges for v in self._variables(context, function, [source], target)]
-            self.lp.row([(1, v) for v in back] + [(-most, self.entries[context])], 0)
+            entering = [v for target in part for v in self._variables(
+                context, function, [p for p in function.predecessors[target] if p not in part], target)]
+            entering += [self.entries[context]] if function.start in part else []
+            for ways in (entering, [self.entries[context]]):  # a circle that nothing enters does not turn
+                self.lp.row([(1, v) for v in back] + [(-most, v) for v in ways], 0)
 
     # ---- facts --------------------------------------------------------------------------------------------------------------
     def _facts(self, kind, context):

@@ -73,14 +73,14 @@ def _body(function, head, latch):
 
 
 def _edges_back(function):
-    """Of each irreducible part, by address: the one edge that every way around takes, and no way in; else those that go back."""
+    """[(irreducible part, edges)], by address: the one edge that every way around takes, and no way in; else those that go back."""
     graph, found = graph_of(function), []
     graph.remove_edges_from([(latch, loop.head) for loop in function.loops for latch in loop.latches])
     for part in sorted((part for part in networkx.strongly_connected_components(graph) if len(part) > 1), key=min):
         within = graph.subgraph(part)
         closing = [edge for edge in sorted(within.edges) if part.issuperset(graph.predecessors(edge[1])) and
                    networkx.is_directed_acyclic_graph(networkx.restricted_view(within, [], [edge]))]
-        found.append(closing[-1:] or [edge for edge in function.retreating if part.issuperset(edge)])
+        found.append((part, closing[-1:] or [edge for edge in function.retreating if part.issuperset(edge)]))
     return found
 
 
