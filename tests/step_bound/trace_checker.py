@@ -109,6 +109,7 @@ class Checker:
         self.bound, self.findings = bound, bound.findings
         self.feasible = {(context, source, target) for context, source, target, _ in bound.findings.feasible}
         self.seen, self.most_turns, self.longest, self.longest_edges, self.count = set(), {}, 0, None, 0
+        self.attained = set()  # names of facts: with a number that is one less they would be contradictions
 
     def check(self, instructions, edges):
         self.count += 1
@@ -126,11 +127,20 @@ class Checker:
         if instructions > self.longest:
             self.longest, self.longest_edges = instructions, dict(edges)
 
+    def _turns_all(self, context, head, turns, edges, calls):
+        function = self.function(context)
+        loop = next(loop for loop in function.loops if loop.head == head)
+        back, entering = self._turned(context, function, loop, edges, calls[context])
+        return back == turns * entering > 0
+
     def _check_facts(self, calls):
         for fact in self.bound.facts:
             if fact.kind == "calls":
                 total = sum(n * self._covers(fact, context) for context, n in calls.items())
-                if total > fact.at_most + self._allowance(fact, calls):
+                allowed = fact.at_most + self._allowance(fact, calls)
+                if total == allowed and total:
+                    self.attained.add(fact.name)
+                if total > allowed:
                     raise Contradiction(f"the fact {fact.name}: {total} calls, not {fact.at_most}")
 
     def _allowance(self, fact, calls):
@@ -156,6 +166,8 @@ class Checker:
             self.most_turns[(context, loop.head)] = max(self.most_turns.get((context, loop.head), 0), -(-back // entering))
         for part, (_, edges_back) in enumerate(function.irreducible):
             back = sum(edges.get((context, source, target), 0) for source, target in edges_back)
+            if back and back == self.bound.backs[(context, part)] * calls:
+                self.attained.update(fact.name for fact in self.bound.facts_of("back", context))
             if back > self.bound.backs[(context, part)] * calls:
                 chain = " > ".join(map(plain_name, self.bound.chain(context)))
                 raise Contradiction(f"{chain} went back {back} times in {calls} calls, in its irreducible part {part}")
@@ -169,6 +181,8 @@ class Checker:
                 loop = next(loop for loop in function.loops if loop.head == head)
                 back, entering = self._turned(context, function, loop, edges, calls.get(context, 0))
                 beyond += back - turns * entering
+            if beyond == 0 and any(calls.get(context) for context, _ in contexts):
+                self.attained.add(fact.name)
             if beyond > 0:
                 raise Contradiction(f"the fact {fact.name}: {beyond} turns too many")
 

@@ -28,6 +28,7 @@ class Bound:
         self.into = {}     # (context, block) -> variables: how often it runs
         self.turns = {}    # (context, head): how often a loop turns back at most for one entry
         self.shared_turns = {}  # (fact with a `plus`, head) -> [(context, turns for one entry)]: in all contexts together
+        self.loop_facts = []    # (fact without one, context, head, turns for one entry)
         self.backs = {}    # (context, irreducible part): how often it goes back at most in one call
         self.used_facts, self.unbounded = set(), []
         self._shared_rows = {}
@@ -116,12 +117,13 @@ class Bound:
         self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering], 0)
 
     def _bound_by_facts(self, context, function, loop, back, entering):
-        facts = self._facts("loop", context)
+        facts = self.facts_of("loop", context)
         if not facts:
             self.unbounded.append(f"{function.name}: the loop at {loop.head:#x}")
         for fact in facts:
             turns = turns_of(fact.at_most, function, loop)
             if not fact.plus:
+                self.loop_facts.append((fact, context, loop.head, turns))
                 self._bound_turns(context, loop, min(turns, self.turns.get((context, loop.head), turns)), back, entering)
                 continue
             self.shared_turns.setdefault((fact, loop.head), []).append((context, turns))
@@ -136,7 +138,7 @@ class Bound:
         return product
 
     def _bound_irreducible(self, context, function):
-        facts = self._facts("back", context)
+        facts = self.facts_of("back", context)
         if not facts:
             self.unbounded.append(f"{function.name}: an irreducible loop at {function.irreducible[0][1][0][1]:#x}")
         for number, (part, edges) in enumerate(function.irreducible if facts else []):
@@ -149,7 +151,7 @@ class Bound:
                 self.lp.row([(1, v) for v in back] + [(-most, v) for v in ways], 0)
 
     # ---- facts --------------------------------------------------------------------------------------------------------------
-    def _facts(self, kind, context):
+    def facts_of(self, kind, context):
         found = [fact for fact in self.facts if fact.kind == kind and fact.covers(self.chain(context))]
         self.used_facts.update(fact.name for fact in found)
         return found
