@@ -64,7 +64,9 @@ constexpr bool is_sound(const E2eWindow& window) {
 // Of whatever window, so that an image holds it once.
 class E2eSequence {
  public:
-  bool take_correct(const E2eWindow& limits, std::uint8_t counter, bool differs) {
+  // `differs()` is asked only of a counter that comes again.
+  template <class Differs>
+  bool take_correct(const E2eWindow& limits, std::uint8_t counter, const Differs& differs) {
     if (state_ == E2eState::no_data) {
       state_ = E2eState::init;
       last_ = counter;
@@ -77,7 +79,7 @@ class E2eSequence {
     const std::uint32_t forgiven_step = limits.counts - limits.least_correct + 1U;
     last_ = counter;
     follows_ = true;
-    if (advance == 0 ? differs : advance > forgiven_step) {
+    if (advance == 0 ? differs() : advance > forgiven_step) {
       window_ = 0;
       suspect_steps_ = limits.steps_alone;
     } else {
@@ -133,7 +135,7 @@ class E2eMachine {
  public:
   // A frame whose CRC is correct; `differs`, from the last one in any bit. True if its data may be taken.
   bool take_correct(std::uint8_t counter, bool differs) {
-    return sequence_.take_correct(window, counter, differs);
+    return sequence_.take_correct(window, counter, [differs] { return differs; });
   }
   void take_wrong() { sequence_.take_wrong(window); }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/e2e_state.hpp"
@@ -40,11 +41,12 @@ class FrameSequence {
       machine_.take_wrong(rules.window);
       return found;
     }
-    const bool differs =
-        frame.id != last_id_ || word<0>(frame) != last_data_[0] || word<1>(frame) != last_data_[1];
-    last_id_ = frame.id;
-    last_data_ = {word<0>(frame), word<1>(frame)};
-    const bool taken = machine_.take_correct(rules.window, counter_of(frame), differs);
+    const std::array<std::uint32_t, 2> data = {word<0>(frame), word<1>(frame)};
+    const std::uint16_t before_id = std::exchange(last_id_, frame.id);
+    const std::array<std::uint32_t, 2> before = std::exchange(last_data_, data);
+    const bool taken = machine_.take_correct(rules.window, counter_of(frame), [&] {
+      return frame.id != before_id || data[0] != before[0] || data[1] != before[1];
+    });
     return taken ? Verdict::accepted : Verdict::wrong_counter;
   }
 

@@ -20,16 +20,19 @@ namespace {
 
 using policy::SmallRandom;
 
+// After 49 days: a core that divides by shifting takes longest for the largest numbers. Every period of the message table
+// divides it.
+constexpr std::uint32_t first_tick = 4'294'960'000;
 constexpr std::uint32_t picture_ticks = 50;
 // Granted in the next one, when a status is due. Wheels are judged in windows of 16 ticks from the first wheel state on:
 // without the next one the last tick ends such a window.
-constexpr std::uint32_t arming_tick = 149;
+constexpr std::uint32_t arming_tick = first_tick + 149;
 constexpr std::uint32_t without_wheels_tick = arming_tick + 2;
-constexpr std::uint32_t early_ball_tick = 985;  // of the picture whose poses come last
+constexpr std::uint32_t early_ball_tick = first_tick + 985;  // of the picture whose poses come last
 // Three wheel states are lost now and then: the receiver forgives that, and the gate believes none in between. At the end
 // it has believed none for too long, and stops the command.
-constexpr std::uint32_t first_gap_tick = 975;
-constexpr std::uint32_t last_tick = 1000;  // every period of the message table divides it
+constexpr std::uint32_t first_gap_tick = first_tick + 975;
+constexpr std::uint32_t last_tick = first_tick + 1000;  // every period of the message table divides it
 
 // A node that is armed and has decided for a while, and what sends to it.
 struct Stage {
@@ -131,9 +134,9 @@ std::uint32_t longest_directed_step(std::uint32_t tries, std::uint32_t seed) {
       stage = Stage{};
       // The check of the weights goes on with every step: a tick that comes again moves it alone.
       for (std::uint32_t again = 0; again < i / finishes % 4; ++again) {
-        stage.node.step({.number = 0}, stage.sent);
+        stage.node.step({.number = first_tick}, stage.sent);
       }
-      for (std::uint32_t tick = 0; tick < last_tick; ++tick) {
+      for (std::uint32_t tick = first_tick; tick < last_tick; ++tick) {
         go_on(stage, random, tick);
       }
     }

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Breaks the kernel's promises one by one, in a copy of the sources, and requires that a test notices each time, and says
 why. That it passes on the sound sources is seen first, but for the images: those are tests of their own, Image.BOARD."""

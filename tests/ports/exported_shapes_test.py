@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Networks of other shapes, from the trainer by way of their exported headers into images: the same answers as the
 exporter's, and instructions in proportion to the paper's network."""

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Three roles and two policies in one image: the same answers as the host's program, to the letter."""
 

@@ -36,9 +36,13 @@ PROGRAMS = {
     "tail": program("APART unsigned helper(unsigned x) { for (int i = 0; i < 4; ++i) sink = x; return x + 2; }\nAPART unsigned work(unsigned x) { sink = x; return helper(x); }"),
     "chain": program("APART unsigned low(unsigned n) { unsigned s = 0; for (unsigned i = 0; i < n; ++i) { s += i; sink = s; } return s; }\n"
                      "APART unsigned work(unsigned x) { return low(3) + low(11) + x; }"),
-    # On a core without an instruction for it the bound takes three passes of an irreducible loop, each at its longest.
-    "division": program("APART unsigned work(unsigned x) { return 1000000U / x; }", "sink = work(1); sink = work(7); sink = work(3); sink = work(0xFFFFFFFFU); sink = work(1000000U); sink = work(999U)",
-                        facts=[("back", "__udivsi3", 3)], loose=1.0),
+    # Where there is no instruction for it, the longest run has a quotient of ones alone.
+    "division": program("APART unsigned work(unsigned x) { return 0xFFFFFFFFU / x; }", "sink = work(1); sink = work(7); sink = work(3); sink = work(0xFFFFFFFFU); sink = work(1000000U)",
+                        facts=[("back", "__udivsi3", 2)], loose=0.1),
+    "signed division": program("APART int work(int x) { return -0x7FFFFFFF / x; }", "sink = work(1); sink = work(-1); sink = work(7); sink = work(-123456); sink = work(2000000000)",
+                               facts=[("back", "__divsi3", [2, 4])], loose=0.1),
+    "byte": program("APART unsigned work(unsigned x) { for (unsigned char i = 250; i != 4; ++i) sink = i; return x; }"),
+    "counted on the stack": program("APART unsigned work(unsigned x) { volatile unsigned i; for (i = 0; i < 6; ++i) sink = x; return x; }"),
     "copies": program("#include <string.h>\nunsigned to[64];\nAPART unsigned work(unsigned x) { memcpy(to, data, 44); memset(to + 11, 0, 20); return to[x]; }", loose=0.05),
     "shared ends": program("APART unsigned work(unsigned x) { if (x & 1) { sink = 1; sink = 2; for (int i = 0; i < 3; ++i) sink = 7; return x; } sink = 3; for (int i = 0; i < 6; ++i)"
                            " sink = 7; return x; }", "sink = work(1); sink = work(2)", loose=0.1),

@@ -6,6 +6,8 @@ import functools
 from collections import Counter
 from typing import NamedTuple
 
+from step_bound.functions import plain_name
+
 
 class Contradiction(Exception):
     """The code does not do what the analysis says."""
@@ -107,6 +109,7 @@ class Checker:
         self.bound, self.findings = bound, bound.findings
         self.feasible = {(context, source, target) for context, source, target, _ in bound.findings.feasible}
         self.seen, self.most_turns, self.longest, self.longest_edges, self.count = set(), {}, 0, None, 0
+        self.attained = set()  # names of facts: with a number that is one less they would be contradictions
 
     def check(self, instructions, edges):
         self.count += 1
@@ -119,19 +122,29 @@ class Checker:
         calls = {context: n for (context, source, _), n in edges.items() if source is None}
         self._check_facts(calls)
         for context in calls:
-            self._check_loops(context, edges, calls[context], calls)
+            self._check_loops(context, edges, calls[context])
+        self._check_shared_turns(edges, calls)
         if instructions > self.longest:
             self.longest, self.longest_edges = instructions, dict(edges)
+
+    def _turns_all(self, context, head, turns, edges, calls):
+        function = self.function(context)
+        loop = next(loop for loop in function.loops if loop.head == head)
+        back, entering = self._turned(context, function, loop, edges, calls[context])
+        return back == turns * entering > 0
 
     def _check_facts(self, calls):
         for fact in self.bound.facts:
             if fact.kind == "calls":
                 total = sum(n * self._covers(fact, context) for context, n in calls.items())
-                if total > fact.at_most + self._allowance(fact, calls):
+                allowed = fact.at_most + self._allowance(fact, calls)
+                if total == allowed and total:
+                    self.attained.add(fact.name)
+                if total > allowed:
                     raise Contradiction(f"the fact {fact.name}: {total} calls, not {fact.at_most}")
 
     def _allowance(self, fact, calls):
-        return sum(n for context, n in calls.items() if self._allows(fact, context)) if fact is not None and fact.plus else 0
+        return sum(n * self._allows(fact, context) for context, n in calls.items()) if fact.plus else 0
 
     @functools.cache
     def _covers(self, fact, context):
@@ -139,21 +152,47 @@ class Checker:
 
     @functools.cache
     def _allows(self, fact, context):
-        return fact.allows_one_more(self.bound.chain(context))
+        return fact.allows_more(self.bound.chain(context))
 
-    def _check_loops(self, context, edges, calls, all_calls):
-        function = self.bound.program.functions[self.findings.contexts[context]]
+    def _check_loops(self, context, edges, calls):
+        function = self.function(context)
         for loop in function.loops:
-            back = sum(edges.get((context, latch, loop.head), 0) for latch in loop.latches)
-            if not back:
+            turns = self.bound.turns.get((context, loop.head))
+            back, entering = self._turned(context, function, loop, edges, calls)
+            if turns is None or not back:
                 continue
-            entering = sum(edges.get((context, source, loop.head), 0) for source in function.predecessors[loop.head]
-                           if source not in loop.body) + (calls if loop.head == function.start else 0)
-            turns, fact = self.bound.turns[(context, loop.head)]
-            if back > turns * entering + self._allowance(fact, all_calls):
+            if back > turns * entering:
                 raise Contradiction(f"{function.name}: the loop at {loop.head:#x} turned {back} times in {entering} entries, not {turns}")
             self.most_turns[(context, loop.head)] = max(self.most_turns.get((context, loop.head), 0), -(-back // entering))
-        if function.retreating:
-            back = sum(edges.get((context, source, target), 0) for source, target in function.retreating)
-            if back > self.bound.turns[(context, function.start)][0] * calls:
-                raise Contradiction(f"{function.name} went back {back} times in {calls} calls")
+        for part, (_, edges_back) in enumerate(function.irreducible):
+            back = sum(edges.get((context, source, target), 0) for source, target in edges_back)
+            if back and back == self.bound.backs[(context, part)] * calls:
+                self.attained.update(fact.name for fact in self.bound.facts_of("back", context))
+            if back > self.bound.backs[(context, part)] * calls:
+                chain = " > ".join(map(plain_name, self.bound.chain(context)))
+                raise Contradiction(f"{chain} went back {back} times in {calls} calls, in its irreducible part {part}")
+
+    def _check_shared_turns(self, edges, calls):
+        """Of a loop that a fact with a `plus` is for, in all contexts together."""
+        for (fact, head), contexts in self.bound.shared_turns.items():
+            beyond = -self._allowance(fact, calls)
+            for context, turns in contexts:
+                function = self.function(context)
+                loop = next(loop for loop in function.loops if loop.head == head)
+                back, entering = self._turned(context, function, loop, edges, calls.get(context, 0))
+                beyond += back - turns * entering
+            if beyond == 0 and any(calls.get(context) for context, _ in contexts):
+                self.attained.add(fact.name)
+            if beyond > 0:
+                raise Contradiction(f"the fact {fact.name}: {beyond} turns too many")
+
+    @staticmethod
+    def _turned(context, function, loop, edges, calls):
+        """(times back, times entered)."""
+        back = sum(edges.get((context, latch, loop.head), 0) for latch in loop.latches)
+        entering = sum(edges.get((context, source, loop.head), 0) for source in function.predecessors[loop.head]
+                       if source not in loop.body)
+        return back, entering + (calls if loop.head == function.start else 0)
+
+    def function(self, context):
+        return self.bound.program.functions[self.findings.contexts[context]]

@@ -47,7 +47,7 @@ class Execution:
         entry = state.copy()
         entry.flags = None
         self._learn(function, entry)
-        if function.retreating:
+        if function.irreducible:
             return self._skip(function, entry, context)
         leaving, _ = self._run_region(function, None, function.start, entry, context)
         after = leaving.get(None)

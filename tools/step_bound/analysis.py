@@ -2,6 +2,7 @@
 """An image's analysis, once, and the bounds that it gives."""
 
 import os
+import re
 
 from . import abstract_execution
 from .bound import Bound
@@ -15,6 +16,16 @@ FACTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "facts.toml")
 STEP = r"loop::GatedNode<.*>::step\("
 WEIGHTS = r"WeightsCheck.*layer_words"
 PASS_TICKS = 500  # firmware/policy/weights_check.hpp
+
+
+def delays_commands(image):
+    """Of the robot that the image was built for, as its build folder says; without one, as if it did."""
+    header = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(image))), "firmware", "built_in_robot.hpp")
+    try:
+        with open(header, encoding="utf-8") as file:
+            return re.search(r"command_delay_ms = \{0\}", file.read()) is None
+    except OSError:
+        return True
 
 
 def accesses_of(block):

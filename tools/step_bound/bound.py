@@ -26,13 +26,16 @@ class Bound:
         self.edges = {}    # (context, block, successor, kind) -> variable
         self.entries = {}  # context -> variable: how often it is called
         self.into = {}     # (context, block) -> variables: how often it runs
-        self.turns = {}    # (context, head): how often a loop turns back at most for one entry, by which fact if any
-        self.open_loops = []
+        self.turns = {}    # (context, head): how often a loop turns back at most for one entry
+        self.shared_turns = {}  # (fact with a `plus`, head) -> [(context, turns for one entry)]: in all contexts together
+        self.loop_facts = []    # (fact without one, context, head, turns for one entry)
+        self.backs = {}    # (context, irreducible part): how often it goes back at most in one call
         self.used_facts, self.unbounded = set(), []
+        self._shared_rows = {}
         self._add_context((), root, None)
         self._add_call_facts()
-        for back, entering, turns, fact in self.open_loops:
-            self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering] + self._allowance(fact), 0)
+        for (fact, _), rows in self._shared_rows.items():
+            self.lp.row(rows + self._allowance(fact), 0)
         if self.unbounded:
             raise Refusal("no bound, and no fact: " + "; ".join(sorted(set(self.unbounded))))
         (self.total, self.values), self.is_whole = self.lp.maximum()
@@ -63,7 +66,7 @@ class Bound:
                 self._add_block(context, block, into[block.start], out[block.start])
         for loop in function.loops:
             self._bound_loop(context, function, loop)
-        if function.retreating:
+        if function.irreducible:
             self._bound_irreducible(context, function)
 
     def _add_edge(self, edge, block, into, out):
@@ -99,24 +102,32 @@ class Bound:
         back = self._variables(context, function, set(loop.latches), loop.head)
         if not entering or not back:
             return
-        turns, fact = self.findings.turns.get((context, loop.head)), None
+        turns = self.findings.turns.get((context, loop.head))
         if turns is None:
-            fact = self._fact("loop", context)
-            if fact is None:
-                self.unbounded.append(f"{function.name}: the loop at {loop.head:#x}")
-                return
-            turns = turns_of(fact.at_most, function, loop)
-        self.turns[(context, loop.head)] = turns, fact
-        if fact is not None and fact.plus:
-            self.open_loops.append((back, entering, turns, fact))
-        else:
-            self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering], 0)
-        if self.findings.turns.get((context, loop.head)) is None:
+            self._bound_by_facts(context, function, loop, back, entering)
             return
+        self._bound_turns(context, loop, turns, back, entering)
         for edge, passes in self.findings.passes.get((context, loop.head), {}).items():
             variable = self.edges.get((context, *edge))
             if variable is not None and passes is not None and passes < self._implied_passes(context, function, loop, edge[0]):
                 self.lp.row([(1, variable)] + [(-passes, v) for v in entering], 0)
+
+    def _bound_turns(self, context, loop, turns, back, entering):
+        self.turns[(context, loop.head)] = turns
+        self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering], 0)
+
+    def _bound_by_facts(self, context, function, loop, back, entering):
+        facts = self.facts_of("loop", context)
+        if not facts:
+            self.unbounded.append(f"{function.name}: the loop at {loop.head:#x}")
+        for fact in facts:
+            turns = turns_of(fact.at_most, function, loop)
+            if not fact.plus:
+                self.loop_facts.append((fact, context, loop.head, turns))
+                self._bound_turns(context, loop, min(turns, self.turns.get((context, loop.head), turns)), back, entering)
+                continue
+            self.shared_turns.setdefault((fact, loop.head), []).append((context, turns))
+            self._shared_rows.setdefault((fact, loop.head), []).extend([(1, v) for v in back] + [(-turns, v) for v in entering])
 
     def _implied_passes(self, context, function, loop, block):
         """What the turns of the loops allow by themselves, of `loop` and of those within it around the block."""
@@ -127,19 +138,23 @@ class Bound:
         return product
 
     def _bound_irreducible(self, context, function):
-        fact = self._fact("back", context)
-        if fact is None:
-            self.unbounded.append(f"{function.name}: an irreducible loop at {function.retreating[0][1]:#x}")
-            return
-        self.turns[(context, function.start)] = fact.at_most, fact
-        back = [v for source, target in function.retreating for v in self._variables(context, function, [source], target)]
-        self.lp.row([(1, v) for v in back] + [(-fact.at_most, self.entries[context])], 0)
+        facts = self.facts_of("back", context)
+        if not facts:
+            self.unbounded.append(f"{function.name}: an irreducible loop at {function.irreducible[0][1][0][1]:#x}")
+        for number, (part, edges) in enumerate(function.irreducible if facts else []):
+            most = self.backs[(context, number)] = min(fact.back_of(number, len(function.irreducible)) for fact in facts)
+            back = [v for source, target in edges for v in self._variables(context, function, [source], target)]
+            entering = [v for target in part for v in self._variables(
+                context, function, [p for p in function.predecessors[target] if p not in part], target)]
+            entering += [self.entries[context]] if function.start in part else []
+            for ways in (entering, [self.entries[context]]):  # a circle that nothing enters does not turn
+                self.lp.row([(1, v) for v in back] + [(-most, v) for v in ways], 0)
 
     # ---- facts --------------------------------------------------------------------------------------------------------------
-    def _fact(self, kind, context):
+    def facts_of(self, kind, context):
         found = [fact for fact in self.facts if fact.kind == kind and fact.covers(self.chain(context))]
         self.used_facts.update(fact.name for fact in found)
-        return min(found, key=lambda fact: fact.at_most) if found else None
+        return found
 
     def _add_call_facts(self):
         for fact in self.facts:
@@ -150,4 +165,4 @@ class Bound:
                     self.lp.row(meant + self._allowance(fact), fact.at_most)
 
     def _allowance(self, fact):
-        return [(-1, variable) for context, variable in self.entries.items() if fact.allows_one_more(self.chain(context))]
+        return [(-more, variable) for context, variable in self.entries.items() if (more := fact.allows_more(self.chain(context)))]

@@ -8,8 +8,8 @@
     because = "..."
     proved_by = "StepFacts.OneInference"  # a test; "trace", `because` and every traced step; or "argument", `because` alone
 
-`plus`, chains too, lets there be one more for each call of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
-`back`, an irreducible function goes back at most so often in one call; `word`, a function, `offset` bytes behind whose first argument a
+`plus`, chains too, lets there be one more for each call of them (two where one stands twice). Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
+`back`, each irreducible part of a function goes back at most so often in one call (a list: one number for each part); `word`, a function, `offset` bytes behind whose first argument a
 word has the value `at_most`, all the time. `when` names a parameter: the fact is left out where that is 0.
 """
 
@@ -31,7 +31,7 @@ class Fact:
     name: str
     kind: str
     chains: list   # of patterns
-    at_most: int
+    at_most: int   # or one for each irreducible part
     plus: list     # of patterns
     because: str
     proved_by: str
@@ -41,8 +41,17 @@ class Fact:
         """How often a chain of functions' names, from the root, is among those meant: each counts."""
         return sum(matches(pattern, chain) for pattern in self.chains)
 
-    def allows_one_more(self, chain):
-        return any(matches(pattern, chain) for pattern in self.plus)
+    def back_of(self, part, parts):
+        """How often an irreducible part, of so many, goes back at most."""
+        if isinstance(self.at_most, int):
+            return self.at_most
+        if len(self.at_most) != parts:
+            raise Refusal(f"the fact [{self.name}] is for {len(self.at_most)} irreducible parts, but there are {parts}")
+        return self.at_most[part]
+
+    def allows_more(self, chain):
+        """How many more a call of such a chain allows: each pattern one."""
+        return sum(matches(pattern, chain) for pattern in self.plus)
 
 
 def matches(pattern, chain):

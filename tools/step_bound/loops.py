@@ -28,6 +28,7 @@ def find_loops(function):
     _find(function)
     if function.retreating and _split_entries(function):
         _find(function)
+    function.irreducible = _edges_back(function) if function.retreating else []
 
 
 def _find(function):
@@ -69,6 +70,18 @@ def _body(function, head, latch):
                 body.add(before)
                 todo.append(before)
     return body
+
+
+def _edges_back(function):
+    """[(irreducible part, edges)], by address: the one edge that every way around takes, and no way in; else those that go back."""
+    graph, found = graph_of(function), []
+    graph.remove_edges_from([(latch, loop.head) for loop in function.loops for latch in loop.latches])
+    for part in sorted((part for part in networkx.strongly_connected_components(graph) if len(part) > 1), key=min):
+        within = graph.subgraph(part)
+        closing = [edge for edge in sorted(within.edges) if part.issuperset(graph.predecessors(edge[1])) and
+                   networkx.is_directed_acyclic_graph(networkx.restricted_view(within, [], [edge]))]
+        found.append((part, closing[-1:] or [edge for edge in function.retreating if part.issuperset(edge)]))
+    return found
 
 
 def _split_entries(function):
