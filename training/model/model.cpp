@@ -26,6 +26,9 @@ void require_weight(const LayerTensors& layer, std::size_t inputs, const std::st
   const Tensor& weight = *layer.weight;
   const std::size_t outputs = layer.bias->values.size();
   const bool table = weight.shape.size() == 2;
+  if (table && weight.shape[1] == 0) {
+    refuse_shape(weight, file, "; a network reads one input at least");
+  }
   if (table && weight.shape[0] == outputs && (inputs == 0 || weight.shape[1] == inputs)) {
     return;
   }
@@ -111,7 +114,7 @@ Model load_model(const std::filesystem::path& file, const std::string& network) 
     throw std::runtime_error(
         fmt::format("{}: an ONNX file holds one network; leave --network {} out", file.string(), network));
   }
-  const std::string bytes = host::read_file(file);
+  const std::string bytes = host::read_file(file, most_model_bytes);
   const SafeTensors content =
       is_onnx ? read_onnx(bytes, file.string()) : read_safetensors(bytes, file.string());
   return {.parameters = parameters_of(content.tensors, file.string(), network), .metadata = content.metadata};
