@@ -4,8 +4,12 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "training/python/native/arrays.hpp"
 #include "training/python/native/kick_worlds.hpp"
@@ -17,9 +21,7 @@ namespace striker::training {
 
 namespace {
 
-// What of an outcome Python is told when an episode ended.
-constexpr std::array outcome_fields = {"episode_reward",    "contact",       "contact_decision",
-                                       "theta_contact_rad", "v_contact_m_s", "front_face"};
+const sil::KickOutcome nothing_happened;
 
 Array<float> copy_of(const Features& features) {
   Array<float> copy(features.size());
@@ -142,21 +144,43 @@ class Worlds {
     return worlds_.step(actions_, out);
   }
 
-  // A row a world: outcome_fields.
-  [[nodiscard]] Array<double> outcomes() const {
-    Array<double> table(
-        std::vector<py::ssize_t>{worlds_.size(), static_cast<py::ssize_t>(outcome_fields.size())});
-    double* to = table.mutable_data();
-    for (int world = 0; world < worlds_.size(); ++world) {
-      const sil::KickOutcome& outcome = worlds_.outcome(world);
-      *to++ = outcome.reward;
-      *to++ = outcome.contact ? 1.0 : 0.0;
-      *to++ = outcome.contact_decision;
-      *to++ = outcome.theta_contact_rad;
-      *to++ = outcome.v_contact_m_s;
-      *to++ = outcome.front_face ? 1.0 : 0.0;
+  // Gymnasium's infos of the worlds whose episode these flags end: arrays, 0 for the others, and their masks.
+  [[nodiscard]] py::dict infos(const Array<bool>& terminated, const Array<bool>& truncated) {
+    const OneAtATime alone(busy_);
+    const py::ssize_t worlds = worlds_.size();
+    const bool* const by_contact = elements(terminated, worlds, "terminated");
+    const bool* const by_time = elements(truncated, worlds, "truncated");
+    std::array<Array<bool>, 4> flags{Array<bool>(worlds), Array<bool>(worlds), Array<bool>(worlds),
+                                     Array<bool>(worlds)};
+    std::array<Array<double>, 3> numbers{Array<double>(worlds), Array<double>(worlds), Array<double>(worlds)};
+    Array<std::int64_t> decisions(worlds);
+    auto& [ended, met, contact, front_face] = flags;
+    auto& [reward, theta_contact_rad, v_contact_m_s] = numbers;
+    for (py::ssize_t world = 0; world < worlds; ++world) {
+      const bool ends = by_contact[world] || by_time[world];
+      const sil::KickOutcome& outcome = ends ? worlds_.outcome(static_cast<int>(world)) : nothing_happened;
+      ended.mutable_data()[world] = ends;
+      met.mutable_data()[world] = outcome.contact;
+      contact.mutable_data()[world] = outcome.contact;
+      front_face.mutable_data()[world] = outcome.front_face;
+      reward.mutable_data()[world] = outcome.reward;
+      theta_contact_rad.mutable_data()[world] = outcome.theta_contact_rad;
+      v_contact_m_s.mutable_data()[world] = outcome.v_contact_m_s;
+      decisions.mutable_data()[world] = outcome.contact ? outcome.contact_decision : 0;
     }
-    return table;
+    py::dict said;
+    for (const auto& [name, values, mask] :
+         std::initializer_list<std::tuple<const char*, py::array, py::array>>{
+             {"episode_reward", reward, ended},
+             {"contact", contact, ended},
+             {"contact_decision", decisions, met},
+             {"theta_contact_rad", theta_contact_rad, met},
+             {"v_contact_m_s", v_contact_m_s, met},
+             {"front_face", front_face, met}}) {
+      said[name] = values;
+      said[py::str("_{}").format(name)] = mask;
+    }
+    return said;
   }
 
   [[nodiscard]] py::tuple state() {
@@ -203,7 +227,6 @@ std::vector<std::pair<double, double>> set_points(const Tasks& tasks) {
 
 void add_kick(py::module_& module) {
   module.attr("RECORD_FIELDS") = py::tuple(py::cast(record_fields));
-  module.attr("OUTCOME_FIELDS") = py::tuple(py::cast(outcome_fields));
   py::class_<Tasks>(module, "Tasks")
       .def(py::init(&tasks_of), py::arg("config"), py::arg("text"), py::arg("robot"), py::arg("changes"))
       .def_readonly("text", &Tasks::text)
@@ -227,7 +250,7 @@ void add_kick(py::module_& module) {
            py::arg("rewards").noconvert(), py::arg("terminated").noconvert(),
            py::arg("truncated").noconvert(), py::arg("records").noconvert(),
            py::arg("final_observations").noconvert())
-      .def("outcomes", &Worlds::outcomes)
+      .def("infos", &Worlds::infos, py::arg("terminated").noconvert(), py::arg("truncated").noconvert())
       .def("state", &Worlds::state)
       .def("restore", &Worlds::restore);
 }

@@ -116,23 +116,10 @@ class VectorKickEnv(VectorEnv):
         observations, rewards, terminated, truncated = arrays
         if records is not None:
             rewards[:] = self._reward_function(KickRecord(*records.T))
-        infos = self._infos(terminated | truncated, finals) if ended else {}
+        infos = self._worlds.infos(terminated, truncated) if ended else {}
+        if ended and self._same_step:
+            infos["final_obs"], infos["_final_obs"] = finals, infos["_episode_reward"]
         return observations, rewards, terminated, truncated, infos
-
-    def _infos(self, ended, finals):
-        table = self._worlds.outcomes()
-        infos = {}
-        for column, name in enumerate(_native.OUTCOME_FIELDS):
-            infos[name] = table[:, column]
-            infos["_" + name] = ended
-        contact = infos["contact"] = infos["contact"].astype(bool)
-        infos["front_face"] = infos["front_face"].astype(bool)
-        infos["contact_decision"] = infos["contact_decision"].astype(numpy.int64)
-        for name in ("contact_decision", "theta_contact_rad", "v_contact_m_s", "front_face"):
-            infos["_" + name] = ended & contact
-        if finals is not None:
-            infos["final_obs"], infos["_final_obs"] = finals, ended
-        return infos
 
     def close(self, **_):
         """Nothing to do: what it holds goes with it."""
