@@ -162,7 +162,8 @@ class Chain {
       weight = transposed(weight);
     }
     if (tensors_.size() == std::size_t{2} * most_layers) {
-      refuse(fmt::format("it has more than {} layers, and a kick network two hidden layers", most_layers));
+      refuse(fmt::format("it has more than {} layers, and a kick network one or two hidden layers",
+                         most_layers));
     }
     weight.name = fmt::format("{}.weight", tensors_.size());
     tensors_.push_back(std::move(weight));
