@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -14,13 +13,30 @@
 
 namespace striker::host {
 
-std::string read_file(const std::filesystem::path& file) {
+std::string read_file(const std::filesystem::path& file, std::size_t most_bytes) {
+  const auto refuse = [&file](const std::string& why) {
+    throw std::runtime_error(fmt::format("{}: cannot be read ({})", file.string(), why));
+  };
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file)) {
-    const std::string why = stream ? "it is a directory" : std::generic_category().message(errno);
-    throw std::runtime_error(fmt::format("{}: cannot be read ({})", file.string(), why));
+    refuse(stream ? "it is a directory" : std::generic_category().message(errno));
   }
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  constexpr std::size_t piece = std::size_t{1} << 16U;
+  std::string text;
+  for (std::size_t got = piece; got == piece && text.size() <= most_bytes;) {
+    const std::size_t before = text.size();
+    text.resize(before + piece);
+    stream.read(text.data() + before, piece);
+    got = static_cast<std::size_t>(stream.gcount());
+    text.resize(before + got);
+  }
+  if (stream.bad()) {
+    refuse(std::generic_category().message(errno));
+  }
+  if (text.size() > most_bytes) {
+    refuse(fmt::format("it has more than {} MiB", most_bytes >> 20U));
+  }
+  return text;
 }
 
 void write_file(const std::filesystem::path& file, std::string_view content) {

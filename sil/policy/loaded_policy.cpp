@@ -15,6 +15,8 @@ namespace {
 
 using policy::proof::activation_limit;
 
+constexpr std::size_t most_actions = 256;  // a golden vector's action is a byte
+
 bool is_in(std::int64_t value, std::int64_t least, std::int64_t greatest) {
   return value >= least && value <= greatest;
 }
@@ -128,7 +130,8 @@ void require_sound(const LoadedPolicy& policy, const std::string& file) {
     }
   };
   require(!policy.state.empty() && policy.state.size() <= policy::greatest_inputs &&
-              policy.set_points.size() >= 2 && fits_together(policy),
+              policy.set_points.size() >= 2 && policy.set_points.size() <= most_actions &&
+              fits_together(policy),
           "its layers, inputs and actions do not fit together");
   require(is_in_range(policy), "a weight, a shift, a multiplier or an input is out of range");
   require(policy.decision_period_ms == core::decision_period_ms,

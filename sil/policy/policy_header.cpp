@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <stdexcept>
 #include <string_view>
 
@@ -91,6 +90,37 @@ LoadedLayer layer_of(const Json& from) {
   return layer;
 }
 
+// "inline constexpr Policy<PARAMETERS> NAME = BODY;" at the begin of a line; its name is empty if there is none.
+struct Definition {
+  std::string_view parameters;
+  std::string_view name;
+  std::string_view body;
+};
+
+Definition find_definition(std::string_view text) {
+  constexpr std::string_view begins = "\ninline constexpr Policy<";
+  constexpr std::size_t longest = 200;  // parameters and name
+  const std::size_t begin = text.find(begins);
+  if (begin == std::string_view::npos) {
+    return {};
+  }
+  const std::string_view rest = text.substr(begin + begins.size());
+  const std::string_view first = rest.substr(0, longest);
+  const std::size_t parameters_end = first.find("> ");
+  const std::size_t name_end = first.find(" = ");
+  if (name_end == std::string_view::npos || parameters_end >= name_end) {
+    return {};
+  }
+  const std::string_view name = first.substr(parameters_end + 2, name_end - parameters_end - 2);
+  if (!std::ranges::all_of(name, is_word)) {
+    return {};
+  }
+  const std::string_view body = rest.substr(name_end + 3);
+  return {.parameters = first.substr(0, parameters_end),
+          .name = name,
+          .body = body.substr(0, body.find("\n};") + 2)};
+}
+
 LoadedPolicy policy_of(const Json& from) {
   LoadedPolicy policy;
   policy.identity = whole<std::uint32_t>(from.at("identity"));
@@ -123,23 +153,21 @@ LoadedPolicy policy_of(const Json& from) {
 }  // namespace
 
 LoadedPolicy read_policy_header(const std::filesystem::path& file) {
-  const std::string text = host::read_file(file);
-  const std::regex begin(R"(\ninline constexpr Policy<([^>]*)> ([a-z_0-9]+) = )");
-  std::smatch found;
-  if (!std::regex_search(text, found, begin)) {
+  const std::string text = host::read_file(file, host::most_text_bytes);
+  const Definition found = find_definition(text);
+  if (found.name.empty()) {
     throw std::runtime_error(
         fmt::format("{}: no policy is in it: give a header that striker-export wrote", file.string()));
   }
-  const std::string body = found.suffix();
   LoadedPolicy policy;
   try {
-    policy = policy_of(Json::parse(json_of(body.substr(0, body.find("\n};") + 2))));
+    policy = policy_of(Json::parse(json_of(found.body)));
   } catch (const std::exception& error) {
     throw std::runtime_error(
-        fmt::format("{}: it is damaged, or of another version: {}", file.string(), error.what()));
+        fmt::format("{}: it is damaged, or of another version: {:.300}", file.string(), error.what()));
   }
-  policy.name = found[2];
-  policy.is_int8 = found.str(1).find("int8") != std::string::npos;
+  policy.name = found.name;
+  policy.is_int8 = found.parameters.find("int8") != std::string_view::npos;
   require_sound(policy, file.string());
   return policy;
 }

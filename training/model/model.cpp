@@ -26,6 +26,9 @@ void require_weight(const LayerTensors& layer, std::size_t inputs, const std::st
   const Tensor& weight = *layer.weight;
   const std::size_t outputs = layer.bias->values.size();
   const bool table = weight.shape.size() == 2;
+  if (table && weight.shape[1] == 0) {
+    refuse_shape(weight, file, "; a network reads one input at least");
+  }
   if (table && weight.shape[0] == outputs && (inputs == 0 || weight.shape[1] == inputs)) {
     return;
   }
@@ -58,9 +61,9 @@ std::vector<LayerTensors> in_order(const NamedNetwork& network, const std::strin
     inputs = layer.bias->values.size();
     ordered.push_back(layer);
   }
-  if (ordered.size() != layer_count) {
+  if (ordered.size() != layer_count && ordered.size() != layer_count - 1) {
     throw std::runtime_error(fmt::format(
-        "{}: it holds {} layers; a kick model has two hidden layers and an output layer: 0.weight, "
+        "{}: it holds {} layers; a kick model has one or two hidden layers and an output layer: 0.weight, "
         "0.bias, 2.weight, 2.bias, 4.weight and 4.bias",
         file, ordered.size()));
   }
@@ -88,17 +91,25 @@ std::vector<Tensor> tensors_of(const Parameters& parameters) {
 Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& file,
                          const std::string& network) {
   const std::vector<LayerTensors> layers = in_order(find_network(tensors, file, network), file);
+  // After a ReLU the identity and another one change nothing, to the bit.
+  const bool adds_identity = layers.size() == layer_count - 1;
   const auto outputs = [&layers](std::size_t layer) {
     return static_cast<int>(layers[layer].bias->values.size());
   };
   Parameters parameters({.inputs = static_cast<int>(layers[0].weight->shape[1]),
                          .hidden1 = outputs(0),
-                         .hidden2 = outputs(1),
-                         .actions = outputs(2)});
+                         .hidden2 = outputs(adds_identity ? 0 : 1),
+                         .actions = outputs(layers.size() - 1)});
   for (int layer = 0; layer < layer_count; ++layer) {
-    const LayerTensors& from = layers[static_cast<std::size_t>(layer)];
     auto weights = parameters.weights(layer);
     auto biases = parameters.biases(layer);
+    if (adds_identity && layer == 1) {
+      weights.setIdentity();
+      biases.setZero();
+      continue;
+    }
+    const LayerTensors& from =
+        layers[static_cast<std::size_t>(adds_identity && layer > 1 ? layer - 1 : layer)];
     weights = Eigen::Map<const RowMajor>(from.weight->values.data(), weights.rows(), weights.cols());
     biases = Eigen::Map<const Eigen::VectorXf>(from.bias->values.data(), biases.size());
   }
@@ -111,7 +122,7 @@ Model load_model(const std::filesystem::path& file, const std::string& network) 
     throw std::runtime_error(
         fmt::format("{}: an ONNX file holds one network; leave --network {} out", file.string(), network));
   }
-  const std::string bytes = host::read_file(file);
+  const std::string bytes = host::read_file(file, most_model_bytes);
   const SafeTensors content =
       is_onnx ? read_onnx(bytes, file.string()) : read_safetensors(bytes, file.string());
   return {.parameters = parameters_of(content.tensors, file.string(), network), .metadata = content.metadata};

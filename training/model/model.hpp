@@ -6,8 +6,11 @@
 // ascending order, whatever stands before the number ("q_net.q_net.0.weight" of Stable-Baselines3,
 // "network.0.weight" of CleanRL). Of several networks in a file, one whose name holds "target" is left out. A file whose
 // name ends in .onnx is read as such (onnx.hpp): the same network is the same model.
+// A network with one hidden layer becomes one with two, whose second is the identity: the same Q values to the bit, at the
+// cost of its size squared in multiply-accumulates. Deeper ones are refused: the firmware's header has two hidden layers.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -24,6 +27,9 @@ struct Model {
   // configuration and the seed do not say all. A model from elsewhere may lack all.
   std::map<std::string, std::string> metadata;
 };
+
+// A file that has more is refused: some thousand times a kick network, and so much at most is read into memory.
+inline constexpr std::size_t most_model_bytes = std::size_t{64} << 20U;
 
 // Errors as `read_safetensors` or `read_onnx`; also a missing or doubtful tensor, or layers that do not fit together.
 // `network` names one of several networks in the file, by the first parts of its tensors' names (network_names.hpp).

@@ -62,8 +62,12 @@ Networks networks_of(const std::vector<Tensor>& tensors, const std::string& file
 }
 
 std::string listed(const Networks& networks) {
+  constexpr std::size_t enough = 500;
   std::string names;
   for (const auto& [name, layers] : networks) {
+    if (names.size() > enough) {
+      return names + ", ...";
+    }
     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
   }
   return names.empty() ? "none" : names;

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "training/model/shown.hpp"
+
 namespace striker::training {
 
 namespace {
@@ -51,12 +53,14 @@ class Chain {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}: {}; {}", file_, what, supported));
+    throw std::runtime_error(fmt::format("{}: {}; {}", file_, shown(what), supported));
   }
 
   [[noreturn]] void refuse(const onnx::NodeProto& node, const std::string& why) const {
-    refuse(fmt::format("node {} ({}) {}", node.name().empty() ? node.output(0) : node.name(), node.op_type(),
-                       why));
+    constexpr std::size_t longest = 80;
+    const bool is_named = !node.name().empty() || node.output_size() == 0;
+    refuse(fmt::format("node {} ({}) {}", shown(is_named ? node.name() : node.output(0), longest),
+                       shown(node.op_type(), longest), why));
   }
 
   void add_constant(const onnx::NodeProto& node) {
@@ -107,6 +111,9 @@ class Chain {
 
   void take(const onnx::NodeProto& node) {
     const std::string& kind = node.op_type();
+    if (!node.domain().empty() && node.domain() != "ai.onnx") {
+      refuse(node, fmt::format("is of {}, not ONNX's own", node.domain()));
+    }
     if (last_ == Step::product && kind != "Add") {
       refuse(node, "follows a MatMul, where its Add should be");
     }
@@ -154,6 +161,10 @@ class Chain {
     if (!is_transposed) {
       weight = transposed(weight);
     }
+    if (tensors_.size() == std::size_t{2} * most_layers) {
+      refuse(fmt::format("it has more than {} layers, and a kick network one or two hidden layers",
+                         most_layers));
+    }
     weight.name = fmt::format("{}.weight", tensors_.size());
     tensors_.push_back(std::move(weight));
   }
@@ -197,6 +208,10 @@ class Chain {
       count = std::min<std::size_t>(count * std::min<std::size_t>(tensor.shape.back(), most), most);
     }
     if (from.has_raw_data()) {
+      if (from.raw_data().size() % sizeof(float) != 0) {
+        refuse(node, fmt::format("reads {}, whose {} bytes are no whole number of FLOAT", name,
+                                 from.raw_data().size()));
+      }
       tensor.values.resize(from.raw_data().size() / sizeof(float));
       std::memcpy(tensor.values.data(), from.raw_data().data(), tensor.values.size() * sizeof(float));
     }
@@ -221,6 +236,7 @@ class Chain {
     return found == node.attribute().end() ? 1.0F : found->f();
   }
 
+  static constexpr int most_layers = 8;               // so many are copied, before model.cpp counts them
   static constexpr std::size_t most = 1'000'000'000;  // values: more than any file that is read
 
   const onnx::GraphProto& graph_;

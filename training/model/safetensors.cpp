@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "training/model/file_kind.hpp"
+#include "training/model/shown.hpp"
 
 namespace striker::training {
 
@@ -21,12 +22,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t length_bytes = 8;
+constexpr std::size_t most_header_bytes = std::size_t{8} << 20U;  // it takes a hundred times as much as JSON
+constexpr int greatest_depth = 8;                                 // of arrays and objects; the format has 3
+constexpr std::size_t longest_name = 200;
 constexpr const char* metadata_key = "__metadata__";
 
 static_assert(std::endian::native == std::endian::little, "tensors are copied as they lie in memory");
 
 [[noreturn]] void refuse(const std::string& file, const std::string& why) {
-  throw std::runtime_error(fmt::format("{}: {}; give a whole float32 safetensors model", file, why));
+  throw std::runtime_error(fmt::format("{}: {}; give a whole float32 safetensors model", file, shown(why)));
 }
 
 // That it is no safetensors file, and what it is instead if that is known.
@@ -44,11 +48,17 @@ Json parse_header(std::string_view text, const std::string& file) {
   std::vector<std::set<std::string>> names;  // of the objects that are open, by depth
   std::string twice;
   const auto look = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth > greatest_depth) {
+      refuse(file, "the header's arrays and objects lie too deep in each other");
+    }
     if (event == Json::parse_event_t::object_start) {
       names.resize(static_cast<std::size_t>(depth) + 1);
       names.back().clear();
     } else if (event == Json::parse_event_t::key) {
       const auto& name = parsed.get_ref<const std::string&>();
+      if (name.size() > longest_name || shown(name) != name) {
+        refuse(file, fmt::format("the header's name {} is too long, or has control characters", name));
+      }
       names.resize(static_cast<std::size_t>(depth));
       if (!names.back().insert(name).second && twice.empty()) {
         twice = name;
@@ -81,6 +91,10 @@ Json header_of(std::string_view bytes, const std::string& file) {
         fmt::format("truncated or not safetensors: it begins with a header's length of {} bytes, and "
                     "has {}",
                     length, bytes.size()));
+  }
+  if (length > most_header_bytes) {
+    refuse_format(bytes, file,
+                  fmt::format("its header has {} bytes; at most {} are read", length, most_header_bytes));
   }
   Json header = parse_header(bytes.substr(length_bytes, length), file);
   if (!header.is_object()) {

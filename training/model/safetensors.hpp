@@ -25,7 +25,8 @@ struct SafeTensors {
 [[nodiscard]] std::string write_safetensors(const SafeTensors& content);
 
 // Refuses with a one-line std::runtime_error that begins with `file`: a truncated file, a file of another
-// format (file_kind.hpp names it), a header that is no JSON, names something twice or lacks a field, another
+// format (file_kind.hpp names it), a header that is no JSON, has more than 8 MiB, lies deep in itself, names something
+// twice, with control characters or at a length that no name has, or lacks a field; another
 // type than F32, a shape that does not fit its data, data that overlap, leave gaps or lie outside the file,
 // NaN or infinite values.
 [[nodiscard]] SafeTensors read_safetensors(std::string_view bytes, const std::string& file);

@@ -160,7 +160,7 @@ Config parse_config(std::string_view text, const std::string& file, const std::v
 }
 
 Config load_config(const std::filesystem::path& file, const std::vector<std::string>& changes) {
-  return parse_config(host::read_file(file), file.string(), changes);
+  return parse_config(host::read_file(file, host::most_text_bytes), file.string(), changes);
 }
 
 std::vector<std::string> robot_changes(const core::RobotDescription& robot) {

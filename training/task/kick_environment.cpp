@@ -35,15 +35,15 @@ KickEnvironment::KickEnvironment(const TaskConfig& task)
 
 void KickEnvironment::reset(std::uint64_t seed, std::uint64_t episode) {
   const sil::KickStart start = sil::draw_kick(seed, episode, config_.pose, config_.rules);
+  for (std::size_t steps = balls_kept - 1; steps > 0; --steps) {
+    balls_.add(sil::ball_before(start, static_cast<double>(steps) * physics_step_s));
+  }
   std::visit(
       [&](auto& world) {
         episode_.begin(world, start);
-        balls_.front() = world.ball();
+        balls_.add(world.ball());
       },
       world_);
-  for (std::size_t steps = 1; steps < balls_.size(); ++steps) {
-    balls_[steps] = sil::ball_before(start, static_cast<double>(steps) * physics_step_s);
-  }
   set_point_ = {};
   dummies_ = sil::Random(seed, episode, sil::random_stream::dummies);
   decisions_ = 0;
@@ -94,7 +94,7 @@ void KickEnvironment::drive(const SetPoint& set_point, int steps) {
     std::visit(
         [&](auto& world) {
           episode_.step(world);
-          remember_ball(world.ball());
+          balls_.add(world.ball());
         },
         world_);
   }
@@ -111,15 +111,13 @@ void KickEnvironment::turn_wheels(const SetPoint& set_point) {
       world_);
 }
 
-void KickEnvironment::remember_ball(const sil::BallState& ball) {
-  std::shift_right(balls_.begin(), balls_.end(), 1);
-  balls_.front() = ball;
-}
-
 // To where the next decision will begin to act.
 void KickEnvironment::lead(Observation& seen) const {
   for (int i = 0; i < delays_.picture_steps + delays_.command_steps; ++i) {
     roll_on(seen.ball);
+  }
+  if (delays_.command_steps == 0) {
+    return;
   }
   const double c = std::cos(seen.robot.heading_rad);
   const double s = std::sin(seen.robot.heading_rad);

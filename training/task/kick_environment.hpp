@@ -5,7 +5,7 @@
 // the ball is measured.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <variant>
 
@@ -16,6 +16,7 @@
 #include "training/task/described_delays.hpp"
 #include "training/task/environment.hpp"
 #include "training/task/physics_step.hpp"
+#include "training/task/recent.hpp"
 #include "training/task/task_config.hpp"
 
 namespace striker::training {
@@ -48,13 +49,15 @@ class KickEnvironment {
   [[nodiscard]] bool in_mirror() const { return config_.one_sided && state().ball_y_m < 0.0; }
   void drive(const SetPoint& set_point, int steps);
   void turn_wheels(const SetPoint& set_point);
-  void remember_ball(const sil::BallState& ball);
   [[nodiscard]] const sil::BallState& ball_before(int steps) const {
-    return balls_[static_cast<std::size_t>(steps)];
+    return balls_.ago(static_cast<std::size_t>(steps));
   }
   void lead(Observation& seen) const;
   void drive_until_measured(const SetPoint& set_point);
   [[nodiscard]] DecisionState observed() const;
+
+  // As old as a picture may be, and the one before it.
+  static constexpr std::size_t balls_kept = 2 * steps_per_decision + 1;
 
   TaskConfig config_;
   std::variant<sil::PlanarWorld, sil::World> world_;
@@ -63,8 +66,8 @@ class KickEnvironment {
   DescribedDelays delays_;
   sil::KickEpisode episode_;
   SetPoint set_point_;  // the last decision's
-  // Now, a physics step ago, ...: as old as a picture may be, and the one before it.
-  std::array<sil::BallState, 2 * steps_per_decision + 1> balls_{};
+  // Now, a physics step ago, ...
+  Recent<sil::BallState, balls_kept> balls_;
   History history_;
   sil::Random dummies_;
   Features features_;

@@ -2,6 +2,7 @@
 #include "training/task/state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -55,9 +56,14 @@ static_assert(is_the_firmwares(Element::decisions_left, policy::StateElement::de
 static_assert(facts[static_cast<std::size_t>(Element::decisions_left) + 1].raw_per_value == 0.0,
               "the controller has seven elements");
 
+// The longer component alone says it of most movements.
+bool is_at_rest(sil::Vec2 velocity_m_s) {
+  const auto [vx, vy] = velocity_m_s;
+  return std::max(std::abs(vx), std::abs(vy)) < rest_speed_m_s && std::hypot(vx, vy) < rest_speed_m_s;
+}
+
 double direction_rad(sil::Vec2 velocity_m_s) {
-  const bool at_rest = std::hypot(velocity_m_s.x, velocity_m_s.y) < rest_speed_m_s;
-  return at_rest ? 0.0 : std::atan2(velocity_m_s.y, velocity_m_s.x);
+  return is_at_rest(velocity_m_s) ? 0.0 : std::atan2(velocity_m_s.y, velocity_m_s.x);
 }
 
 double value_of(Element element, const DecisionState& state, sil::Random& dummies) {
@@ -133,8 +139,7 @@ RcsState rcs_state(const Observation& observation, Equations equations) {
   state.robot_speed_m_s = c * robot_velocity.x + s * robot_velocity.y;
   state.ball_vx_m_s = c * vx + s * vy;
   state.ball_vy_m_s = -s * vx + c * vy;
-  const bool at_rest = std::hypot(vx, vy) < rest_speed_m_s;
-  const double angle_rad = at_rest ? 0.0 : std::atan2(vy, vx) - robot.heading_rad;
+  const double angle_rad = is_at_rest(ball.velocity_m_s) ? 0.0 : std::atan2(vy, vx) - robot.heading_rad;
   state.ball_angle_rad = wrap_angle_rad(angle_rad);
 
   if (equations == Equations::printed) {
@@ -160,11 +165,6 @@ StateInputs rcs_inputs() {
 
 StateInputs acs_inputs() {
   return range(Element::field_robot_x, Element::field_ball_angle);
-}
-
-void History::add(const DecisionState& newest) {
-  std::shift_right(states_.begin(), states_.end(), 1);
-  states_.front() = newest;
 }
 
 void write_features(const StateInputs& inputs, const History& history, bool mirror, sil::Random& dummies,

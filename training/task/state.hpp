@@ -10,7 +10,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,6 +20,7 @@
 #include "sil/world/random.hpp"
 #include "sil/world/robot_specs.hpp"
 #include "sil/world/world.hpp"
+#include "training/task/recent.hpp"
 
 namespace striker::training {
 
@@ -111,13 +111,13 @@ using StateInputs = std::vector<StateInput>;
 class History {
  public:
   void begin(const DecisionState& first) { states_.fill(first); }
-  void add(const DecisionState& newest);
+  void add(const DecisionState& newest) { states_.add(newest); }
   [[nodiscard]] const DecisionState& ago(int decisions) const {
-    return states_[static_cast<std::size_t>(decisions)];
+    return states_.ago(static_cast<std::size_t>(decisions));
   }
 
  private:
-  std::array<DecisionState, greatest_look_back + 1> states_{};
+  Recent<DecisionState, greatest_look_back + 1> states_;
 };
 
 using Features = Eigen::VectorXf;  // one value an input

@@ -240,7 +240,7 @@ FaultCase read_case(const TableReader& reader) {
 }  // namespace
 
 FaultPlan read_plan(const std::filesystem::path& file) {
-  return parse_plan(host::read_file(file), file.string());
+  return parse_plan(host::read_file(file, host::most_text_bytes), file.string());
 }
 
 FaultPlan parse_plan(std::string_view text, const std::string& file) {

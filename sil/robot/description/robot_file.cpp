@@ -160,7 +160,7 @@ RobotDescription read_robot(const std::filesystem::path& file) {
 
 RobotAndDrives read_robot_and_drives(const std::filesystem::path& file) {
   const std::string name = file.string();
-  const std::string text = host::read_file(file);
+  const std::string text = host::read_file(file, host::most_text_bytes);
   RobotDescription robot{};
   DriveWiring wiring;
   try {

@@ -18,6 +18,9 @@ class Checker(PackageCase):
             check_env(gymnasium.make("Striker/Kick-v0", **options).unwrapped, skip_render_check=True)
         check_env(striker.KickEnv(render_mode="rgb_array"))
 
+    def test_a_match(self):
+        check_env(gymnasium.make("Striker/Match-v0", max_s=2.0).unwrapped)
+
     def test_many_worlds(self):
         env = gymnasium.make_vec("Striker/Kick-v0", num_envs=4, vectorization_mode="vector_entry_point")
         self.assertIsInstance(env.unwrapped, striker.VectorKickEnv)

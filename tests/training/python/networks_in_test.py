@@ -102,6 +102,23 @@ class NetworksIn(PackageCase):
         numpy.testing.assert_allclose([network.values(state) for state in states.numpy()], values, atol=1e-5)
         self.assertGreater(numpy.mean(network(states.numpy()) == values.argmax(1)), 0.99)
 
+    def test_one_hidden_layer_is_two_of_which_one_changes_nothing(self):
+        module = torch.nn.Sequential(torch.nn.Linear(6, 24), torch.nn.ReLU(), torch.nn.Linear(24, 3))
+        striker.export(module.state_dict(), self.path("one.safetensors"))
+        torch.onnx.export(module, torch.zeros(1, 6), self.path("one.onnx"))
+        arrays = {name: tensor.numpy() for name, tensor in module.state_dict().items()}
+        two = {"0.weight": arrays["0.weight"], "0.bias": arrays["0.bias"], "2.weight": numpy.eye(24),
+               "2.bias": numpy.zeros(24), "4.weight": arrays["2.weight"], "4.bias": arrays["2.bias"]}
+        striker.export(two, self.path("two.safetensors"))
+        expected = striker.Network(self.path("two.safetensors"))
+        for name in ("one.safetensors", "one.onnx"):
+            network = striker.Network(self.path(name))
+            self.assertEqual(network.identity, expected.identity)
+            states = torch.randn(300, 6)
+            values = module(states).detach().numpy()
+            numpy.testing.assert_allclose([network.values(state) for state in states.numpy()], values, atol=1e-5)
+        self.assertIn("Policy<6, 24, 24, 3, 16> ", "".join(self.header_of("one.safetensors")))
+
     def test_metadata_of_onnx_names_the_task(self):
         model = onnx_model(*gemm_chain(some_network(inputs=2)), inputs=2)
         helper.set_model_props(model, {"configuration": striker.KickEnv(inputs=["ball_x", "ball_y"]).configuration})

@@ -3,11 +3,17 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "training/python/native/arrays.hpp"
 #include "training/python/native/kick_worlds.hpp"
+#include "training/python/native/misuse.hpp"
 #include "training/python/native/module.hpp"
 #include "training/python/native/tasks.hpp"
 
@@ -15,14 +21,7 @@ namespace striker::training {
 
 namespace {
 
-// What of an outcome Python is told when an episode ended.
-constexpr std::array outcome_fields = {"episode_reward",    "contact",       "contact_decision",
-                                       "theta_contact_rad", "v_contact_m_s", "front_face"};
-
-[[noreturn]] void refuse_action(std::int64_t action, int actions) {
-  throw std::invalid_argument("action " + std::to_string(action) + ": it must be 0 to " +
-                              std::to_string(actions - 1));
-}
+const sil::KickOutcome nothing_happened;
 
 Array<float> copy_of(const Features& features) {
   Array<float> copy(features.size());
@@ -42,14 +41,11 @@ class Kick {
   }
 
   // Gymnasium's five.
-  py::tuple step(std::int64_t action) {
+  py::tuple step(py::handle action) {
     if (!player_.is_playing()) {
       throw std::runtime_error("the episode has ended, or none has begun: call reset()");
     }
-    if (action < 0 || action >= actions_) {
-      refuse_action(action, actions_);
-    }
-    const StepResult result = player_.step(static_cast<int>(action));
+    const StepResult result = player_.step(action_of(action, actions_));
     return py::make_tuple(copy_of(player_.now().features()), result.reward, result.end && !result.truncated,
                           result.truncated, result.end ? outcome() : py::dict());
   }
@@ -62,6 +58,7 @@ class Kick {
   }
 
   void restore(std::uint64_t seed, std::uint64_t episode, const std::vector<std::uint8_t>& actions) {
+    require_played(actions, actions_, sil::kick_decisions);
     player_.reset(seed, episode);
     for (const std::uint8_t action : actions) {
       player_.step(action);
@@ -98,10 +95,13 @@ class Kick {
 class Worlds {
  public:
   Worlds(const Tasks& tasks, int worlds, int threads, bool same_step)
-      : worlds_(tasks.environments, worlds, threads,
-                same_step ? Autoreset::same_step : Autoreset::next_step) {}
+      : worlds_(tasks.environments, std::max(worlds, 1), std::max(threads, 1),
+                same_step ? Autoreset::same_step : Autoreset::next_step),
+        actions_(static_cast<std::size_t>(worlds_.size())),
+        same_step_(same_step) {}
 
   void reset(const std::vector<std::uint64_t>& seeds, std::uint64_t first, Array<float>& observations) {
+    const OneAtATime alone(busy_);
     float* const to = elements(observations, py::ssize_t{worlds_.size()} * worlds_.inputs(), "observations");
     if (seeds.size() == 1) {
       worlds_.reset(seeds.front(), first, to);
@@ -115,12 +115,16 @@ class Worlds {
   int step(const Array<std::int64_t>& actions, Array<float>& observations, Array<double>& rewards,
            Array<bool>& terminated, Array<bool>& truncated, std::optional<Array<double>>& records,
            std::optional<Array<float>>& finals) {
+    const OneAtATime alone(busy_);
     const py::ssize_t worlds = worlds_.size();
     const std::int64_t* const chosen = elements(actions, worlds, "actions");
+    // Copied, as the array is the caller's, who may change it meanwhile.
     for (py::ssize_t world = 0; world < worlds; ++world) {
-      if (chosen[world] < 0 || chosen[world] >= worlds_.actions()) {
-        refuse_action(chosen[world], worlds_.actions());
+      const std::int64_t action = chosen[world];
+      if (action < 0 || action >= worlds_.actions()) {
+        static_cast<void>(action_of(py::int_(action), worlds_.actions()));  // says what is wrong
       }
+      actions_[static_cast<std::size_t>(world)] = static_cast<int>(action);
     }
     StepArrays out;
     out.observations = elements(observations, worlds * worlds_.inputs(), "observations");
@@ -133,28 +137,54 @@ class Worlds {
     if (finals) {
       out.final_observations = elements(*finals, worlds * worlds_.inputs(), "final observations");
     }
-    const py::gil_scoped_release others_may_run;
-    return worlds_.step(chosen, out);
-  }
-
-  // A row a world: outcome_fields.
-  [[nodiscard]] Array<double> outcomes() const {
-    Array<double> table(
-        std::vector<py::ssize_t>{worlds_.size(), static_cast<py::ssize_t>(outcome_fields.size())});
-    double* to = table.mutable_data();
-    for (int world = 0; world < worlds_.size(); ++world) {
-      const sil::KickOutcome& outcome = worlds_.outcome(world);
-      *to++ = outcome.reward;
-      *to++ = outcome.contact ? 1.0 : 0.0;
-      *to++ = outcome.contact_decision;
-      *to++ = outcome.theta_contact_rad;
-      *to++ = outcome.v_contact_m_s;
-      *to++ = outcome.front_face ? 1.0 : 0.0;
+    if (same_step_ && out.final_observations == nullptr) {
+      throw py::value_error("same_step: final observations need an array");
     }
-    return table;
+    const py::gil_scoped_release others_may_run;
+    return worlds_.step(actions_, out);
   }
 
-  [[nodiscard]] py::tuple state() const {
+  // Gymnasium's infos of the worlds whose episode these flags end: arrays, 0 for the others, and their masks.
+  [[nodiscard]] py::dict infos(const Array<bool>& terminated, const Array<bool>& truncated) {
+    const OneAtATime alone(busy_);
+    const py::ssize_t worlds = worlds_.size();
+    const bool* const by_contact = elements(terminated, worlds, "terminated");
+    const bool* const by_time = elements(truncated, worlds, "truncated");
+    std::array<Array<bool>, 4> flags{Array<bool>(worlds), Array<bool>(worlds), Array<bool>(worlds),
+                                     Array<bool>(worlds)};
+    std::array<Array<double>, 3> numbers{Array<double>(worlds), Array<double>(worlds), Array<double>(worlds)};
+    Array<std::int64_t> decisions(worlds);
+    auto& [ended, met, contact, front_face] = flags;
+    auto& [reward, theta_contact_rad, v_contact_m_s] = numbers;
+    for (py::ssize_t world = 0; world < worlds; ++world) {
+      const bool ends = by_contact[world] || by_time[world];
+      const sil::KickOutcome& outcome = ends ? worlds_.outcome(static_cast<int>(world)) : nothing_happened;
+      ended.mutable_data()[world] = ends;
+      met.mutable_data()[world] = outcome.contact;
+      contact.mutable_data()[world] = outcome.contact;
+      front_face.mutable_data()[world] = outcome.front_face;
+      reward.mutable_data()[world] = outcome.reward;
+      theta_contact_rad.mutable_data()[world] = outcome.theta_contact_rad;
+      v_contact_m_s.mutable_data()[world] = outcome.v_contact_m_s;
+      decisions.mutable_data()[world] = outcome.contact ? outcome.contact_decision : 0;
+    }
+    py::dict said;
+    for (const auto& [name, values, mask] :
+         std::initializer_list<std::tuple<const char*, py::array, py::array>>{
+             {"episode_reward", reward, ended},
+             {"contact", contact, ended},
+             {"contact_decision", decisions, met},
+             {"theta_contact_rad", theta_contact_rad, met},
+             {"v_contact_m_s", v_contact_m_s, met},
+             {"front_face", front_face, met}}) {
+      said[name] = values;
+      said[py::str("_{}").format(name)] = mask;
+    }
+    return said;
+  }
+
+  [[nodiscard]] py::tuple state() {
+    const OneAtATime alone(busy_);
     py::list players;
     for (int world = 0; world < worlds_.size(); ++world) {
       const KickPlayer& player = worlds_.player(world);
@@ -166,15 +196,23 @@ class Worlds {
   void restore(
       std::uint64_t stride,
       const std::vector<std::tuple<std::uint64_t, std::uint64_t, std::vector<std::uint8_t>>>& players) {
+    const OneAtATime alone(busy_);
+    if (players.size() != static_cast<std::size_t>(worlds_.size())) {
+      throw py::value_error("the copy is one of so many worlds: " + std::to_string(players.size()));
+    }
     worlds_.set_stride(stride);
     for (std::size_t world = 0; world < players.size(); ++world) {
       const auto& [seed, episode, actions] = players[world];
+      require_played(actions, worlds_.actions(), sil::kick_decisions);
       worlds_.restore(static_cast<int>(world), seed, episode, actions);
     }
   }
 
  private:
   KickWorlds worlds_;
+  std::vector<int> actions_;
+  bool same_step_;
+  bool busy_ = false;
 };
 
 std::vector<std::pair<double, double>> set_points(const Tasks& tasks) {
@@ -189,7 +227,6 @@ std::vector<std::pair<double, double>> set_points(const Tasks& tasks) {
 
 void add_kick(py::module_& module) {
   module.attr("RECORD_FIELDS") = py::tuple(py::cast(record_fields));
-  module.attr("OUTCOME_FIELDS") = py::tuple(py::cast(outcome_fields));
   py::class_<Tasks>(module, "Tasks")
       .def(py::init(&tasks_of), py::arg("config"), py::arg("text"), py::arg("robot"), py::arg("changes"))
       .def_readonly("text", &Tasks::text)
@@ -213,7 +250,7 @@ void add_kick(py::module_& module) {
            py::arg("rewards").noconvert(), py::arg("terminated").noconvert(),
            py::arg("truncated").noconvert(), py::arg("records").noconvert(),
            py::arg("final_observations").noconvert())
-      .def("outcomes", &Worlds::outcomes)
+      .def("infos", &Worlds::infos, py::arg("terminated").noconvert(), py::arg("truncated").noconvert())
       .def("state", &Worlds::state)
       .def("restore", &Worlds::restore);
 }

@@ -12,6 +12,7 @@
 #include "sil/match/team/strategies.hpp"
 #include "sil/match/team/top_speed.hpp"
 #include "training/python/native/arrays.hpp"
+#include "training/python/native/misuse.hpp"
 #include "training/python/native/module.hpp"
 
 namespace striker::training {
@@ -71,14 +72,16 @@ class Match {
   }
 
   void reset(std::uint64_t seed) {
+    const OneAtATime alone(busy_);
     setting_.seed = seed;
     game_ = std::make_unique<Game>(setting_, own_);
   }
 
   // A frame of 50 ms: a left and a right rim speed a robot, by id. Whether the match is over.
   bool step(const Array<double>& speeds_m_s) {
+    const OneAtATime alone(busy_);
     const double* speed = elements(speeds_m_s, 2 * robots_a_team, "actions");
-    for (auto& order : game_->ours.orders) {
+    for (auto& order : game().ours.orders) {
       order = sil::SpeedOrder{.left_m_s = speed[0], .right_m_s = speed[1]};
       speed += 2;
     }
@@ -91,8 +94,9 @@ class Match {
   }
 
   // A row a robot, the own five first: x, y, heading, active, touching.
-  [[nodiscard]] Array<double> robots() const {
-    const sil::TeamView view = game_->run.view(own_);
+  [[nodiscard]] Array<double> robots() {
+    const OneAtATime alone(busy_);
+    const sil::TeamView view = game().run.view(own_);
     Array<double> table(std::vector<py::ssize_t>{2 * robots_a_team, 5});
     double* to = table.mutable_data();
     for (const auto* const team : {&view.own, &view.opponents}) {
@@ -108,8 +112,9 @@ class Match {
   }
 
   // Ball x, y, height; seconds of the half; half; own and other score; state; has ball.
-  [[nodiscard]] std::array<double, 9> situation() const {
-    const sil::TeamView view = game_->run.view(own_);
+  [[nodiscard]] std::array<double, 9> situation() {
+    const OneAtATime alone(busy_);
+    const sil::TeamView view = game().run.view(own_);
     return {view.ball_m.x,
             view.ball_m.y,
             view.ball_height_m,
@@ -121,13 +126,24 @@ class Match {
             view.has_ball ? 1.0 : 0.0};
   }
 
-  [[nodiscard]] bool is_over() const { return game_->run.ruling().state == sil::GameState::over; }
-  [[nodiscard]] double simulated_s() const { return game_->run.simulated_s(); }
+  [[nodiscard]] double simulated_s() {
+    const OneAtATime alone(busy_);
+    return game().run.simulated_s();
+  }
 
  private:
+  [[nodiscard]] bool is_over() const { return game_->run.ruling().state == sil::GameState::over; }
+  [[nodiscard]] Game& game() {
+    if (game_ == nullptr) {
+      throw std::runtime_error("no match has begun: call reset()");
+    }
+    return *game_;
+  }
+
   sil::Team own_;
   sil::MatchSetting setting_;
   std::unique_ptr<Game> game_;
+  bool busy_ = false;
 };
 
 }  // namespace

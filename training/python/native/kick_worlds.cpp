@@ -33,14 +33,14 @@ void KickWorlds::reset(const std::vector<std::uint64_t>& seeds, std::uint64_t fi
   }
 }
 
-int KickWorlds::step(const std::int64_t* actions, const StepArrays& out) {
+int KickWorlds::step(const std::vector<int>& actions, const StepArrays& out) {
   const std::size_t parts = ended_.size();
   crew_.run([&](int part) {
     const auto at = static_cast<std::size_t>(part);
     int ended = 0;
     for (std::size_t world = at * players_.size() / parts; world < (at + 1) * players_.size() / parts;
          ++world) {
-      ended += step_world(world, static_cast<int>(actions[world]), out) ? 1 : 0;
+      ended += step_world(world, actions[world], out) ? 1 : 0;
     }
     ended_[at] = ended;
   });

@@ -43,7 +43,7 @@ class KickWorlds {
   // One seed a world, its episode `first` and those after it.
   void reset(const std::vector<std::uint64_t>& seeds, std::uint64_t first, float* observations);
   // `actions` holds one of the task's a world. How many worlds ended their episode.
-  int step(const std::int64_t* actions, const StepArrays& out);
+  int step(const std::vector<int>& actions, const StepArrays& out);
 
   // Of the episode that ended last.
   [[nodiscard]] const sil::KickOutcome& outcome(int world) const {

@@ -9,7 +9,7 @@ network to the programs.
 
 Where gymnasium is installed, KickEnv is a gymnasium.Env, gymnasium.make("Striker/Kick-v0") makes one, and
 gymnasium.make_vec("Striker/Kick-v0", num_envs=1024, vectorization_mode="vector_entry_point") makes a VectorKickEnv.
-Nothing here needs it.
+gymnasium.make("Striker/Match-v0") makes a TeamMatchEnv: a match (MatchEnv) whose five robots are one agent. Nothing here needs it.
 """
 
 from striker._native import FIRST_TRAINING_EPISODE, FIRST_VALIDATION_EPISODE
@@ -18,10 +18,10 @@ from striker.match_env import MatchEnv, MatchRecord
 from striker.networks import Network, export
 from striker.records import KickRecord
 from striker.registration import register
+from striker.team_match_env import TeamMatchEnv
 from striker.vector_kick_env import VectorKickEnv
 
 __all__ = ["FIRST_TRAINING_EPISODE", "FIRST_VALIDATION_EPISODE", "KickEnv", "KickRecord", "MatchEnv", "MatchRecord",
-           "Network", "VectorKickEnv",
-           "export"]
+           "Network", "TeamMatchEnv", "VectorKickEnv", "export"]
 
 register()

@@ -3,7 +3,7 @@
 
 import numpy
 
-from striker import _native, spaces
+from striker import _native, checks, spaces
 from striker.options import tasks_of
 from striker.records import KickRecord
 
@@ -38,13 +38,11 @@ class KickEnv(Env):
     metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 20}
 
     def __init__(self, render_mode=None, *, config=None, reward_function=None, **options):
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise ValueError(f"render_mode {render_mode!r}: it may be None, 'rgb_array' or 'human'")
-        self.render_mode = render_mode
+        self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self._tasks = tasks_of(config, **options)
         self._arguments = {"config": self._tasks.text, "reward_function": reward_function}
         self._kick = _native.Kick(self._tasks)
-        self._reward_function = reward_function
+        self._reward_function = checks.function("reward_function", reward_function)
         self._next_episode = None  # (seed, number); None: no seed yet
         self._picture = None
         self.set_points = numpy.array(self._tasks.set_points)
@@ -52,19 +50,27 @@ class KickEnv(Env):
         self.action_space = spaces.Discrete(len(self.set_points))
 
     @property
+    def inputs(self):
+        """How many an observation has."""
+        return self._tasks.inputs
+
+    @property
     def configuration(self):
         """The whole training configuration as text: for export(), so that the programs know the task."""
         return self._tasks.text
 
     def reset(self, *, seed=None, options=None):
+        if seed is not None:
+            seed = checks.whole("seed", seed, 0, checks.GREATEST_SEED)
         if Env is not object:
             super().reset(seed=seed)
         if seed is not None:
-            self._next_episode = (int(seed), 0)
+            seed, episode = seed, 0
         elif self._next_episode is None:
-            self._next_episode = (int(numpy.random.SeedSequence().generate_state(1)[0]), 0)
-        seed, episode = self._next_episode
-        episode = (options or {}).get("episode", episode)
+            seed, episode = int(numpy.random.SeedSequence().generate_state(1)[0]), 0
+        else:
+            seed, episode = self._next_episode
+        episode = checks.episode_of(options, episode, checks.GREATEST_SEED - 1)
         observation = self._kick.reset(seed, episode)
         self._next_episode = (seed, episode + 1)
         if self.render_mode == "human":
@@ -84,6 +90,8 @@ class KickEnv(Env):
         """rgb_array: an array [height, width, 3] of uint8. human: a window, which shows each step as it is taken."""
         if self.render_mode is None:
             return None
+        if self._next_episode is None:
+            raise RuntimeError("there is nothing to draw yet: call reset()")
         if self._picture is None:
             from striker.drawing import KickPicture
             self._picture = KickPicture(self.render_mode == "human")

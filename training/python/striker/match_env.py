@@ -6,7 +6,7 @@ import collections
 
 import numpy
 
-from striker import _native, spaces
+from striker import _native, checks, spaces
 
 try:
     from pettingzoo import ParallelEnv
@@ -16,6 +16,7 @@ except ImportError:
 AGENTS = ("goalkeeper", "defender_1", "defender_2", "forward_1", "forward_2")
 STATES = ("open_play", "kickoff", "goal_kick", "corner", "penalty", "pause", "over")
 FRAME_S = 0.05
+TOP_SPEEDS = numpy.array(_native.TOP_SPEEDS_M_S)[:, None]  # m/s at the rim, a row a robot
 
 MatchRecord = collections.namedtuple("MatchRecord", (
     "own", "opponents", "ball", "clock_s", "half", "score", "opponent_score", "scored", "conceded", "state",
@@ -43,7 +44,7 @@ class MatchEnv(ParallelEnv):
     Agents: goalkeeper, defender_1, defender_2, forward_1, forward_2, whose numbers on the field are 0 to 4.
 
     Actions: the rim speeds of the left and the right wheel in m/s, positive ahead, up to the robot's top speed (1.8, 2.1,
-    2.55 m/s). They go over the bus as a team's orders do, and count where the referee lets the robot move: in a pause
+    2.55 m/s); what is faster counts as that. They go over the bus as a team's orders do, and count where the referee lets the robot move: in a pause
     they are ignored.
 
     Observations: 56 float32 in the own-team frame (x to the opponent's goal, origin in the centre, metres, which turns at
@@ -66,17 +67,17 @@ class MatchEnv(ParallelEnv):
                  jitter_mm=10.0, max_s=0.0, reward_function=goals, render_mode=None):
         for name, value, choices in (("colour", colour, ("red", "blue")), ("plant", plant, ("servo", "drive")),
                                      ("rules", rules, ("official", "published")), ("render_mode", render_mode, (None,))):
-            if value not in choices:
-                raise ValueError(f"{name} {value!r}: it may be {' or '.join(map(str, choices))}")
-        for name, value, least, greatest in (("half_s", half_s, 1, 3600), ("slip", slip, 0.0, 1.0),
-                                             ("jitter_mm", jitter_mm, 0.0, 100.0), ("max_s", max_s, 0.0, 1e6)):
-            if not least <= value <= greatest:
-                raise ValueError(f"{name} {value}: it may be {least} to {greatest}")
+            checks.one_of(name, value, choices)
+        half_s = checks.whole("half_s", half_s, 1, 3600)
+        slip = checks.number("slip", slip, 0.0, 1.0)
+        jitter_mm = checks.number("jitter_mm", jitter_mm, 0.0, 100.0)
+        max_s = checks.number("max_s", max_s, 0.0, 1e6)
         self.render_mode = None
         self.possible_agents = list(AGENTS)
         self.agents = []
-        self._match = _native.Match(opponent, colour == "red", int(half_s), rules, plant, slip, jitter_mm)
-        self._max_s, self._reward_function, self._seed = max_s, reward_function, 0
+        self._match = _native.Match(str(opponent), colour == "red", half_s, rules, plant, slip, jitter_mm)
+        self._max_s, self._seed = max_s, 0
+        self._reward_function = checks.function("reward_function", reward_function) or goals
         self._score = None
         # A robot may be pushed past a line, and a goal is deep: wider than the field.
         self._observation_spaces = {agent: spaces.Box(-numpy.inf, numpy.inf, (56,), numpy.float32) for agent in AGENTS}
@@ -90,7 +91,7 @@ class MatchEnv(ParallelEnv):
         return self._action_spaces[agent]
 
     def reset(self, seed=None, options=None):
-        self._seed = self._seed + 1 if seed is None else int(seed)
+        self._seed = checks.whole("seed", self._seed + 1 if seed is None else seed, 0, checks.GREATEST_SEED)
         self._match.reset(self._seed)
         self.agents = list(AGENTS)
         self._score = (0, 0)
@@ -100,10 +101,7 @@ class MatchEnv(ParallelEnv):
     def step(self, actions):
         if not self.agents:
             raise RuntimeError("the match has ended, or none has begun: call reset()")
-        speeds = numpy.array([actions[agent] for agent in AGENTS], numpy.float64)
-        if speeds.shape != (5, 2) or not numpy.isfinite(speeds).all():
-            raise ValueError("actions: two finite speeds for each agent, in m/s")
-        over = self._match.step(speeds)
+        over = self._match.step(self._speeds(actions))
         record = self._look()
         reward = self._reward_function(record)
         rewards = {agent: float(reward[agent]) for agent in AGENTS} if isinstance(reward, dict) else \
@@ -114,6 +112,20 @@ class MatchEnv(ParallelEnv):
         info = {"state": record.state, "score": (record.score, record.opponent_score)}
         return (self._observations(record), rewards, dict.fromkeys(AGENTS, over), dict.fromkeys(AGENTS, truncated),
                 {agent: dict(info) for agent in AGENTS})
+
+    def _speeds(self, actions):
+        speeds = numpy.zeros((len(AGENTS), 2))
+        for row, agent in zip(speeds, AGENTS):
+            if not isinstance(actions, dict) or agent not in actions:
+                raise KeyError(f"actions: {agent} has none; give a dictionary of two speeds for each agent")
+            given = numpy.asarray(actions[agent])
+            if given.dtype.kind not in "fiu" or given.shape != (2,) or not numpy.isfinite(given).all():
+                raise ValueError(f"actions[{agent!r}] {checks.shown(actions[agent])}: two finite speeds in m/s")
+            row[:] = given
+        return speeds.clip(-TOP_SPEEDS, TOP_SPEEDS)
+
+    def __getstate__(self):
+        raise TypeError("a MatchEnv cannot be pickled or copied: make one in each process")
 
     def render(self):
         return None

@@ -26,6 +26,8 @@ def toml_value(value):
 def tasks_of(config=None, **options):
     """The tasks that a configuration file (or the defaults) and these options describe."""
     changes, text, path, robot = [], "", config, None
+    if not isinstance(config, (str, os.PathLike, type(None))):
+        raise TypeError(f"config {config!r}: it must be the path or the text of a training configuration")
     if isinstance(config, str) and "\n" in config:
         text, path = config, None
     for name, value in options.items():
@@ -36,6 +38,8 @@ def tasks_of(config=None, **options):
         elif name == "robot" and isinstance(value, (str, os.PathLike)):
             robot = os.fspath(value)
         elif name in TABLES:
+            if not isinstance(value, dict):
+                raise TypeError(f"{name} {value!r}: it must be a dictionary{' or a path' if name == 'robot' else ''}")
             changes += [f"{name}.{key}={toml_value(inner)}" for key, inner in value.items()]
         else:
             raise TypeError(f"{name} is no option of a kick: {', '.join(TASK_KEYS + TABLES)} and config are")

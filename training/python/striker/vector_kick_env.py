@@ -3,7 +3,7 @@
 
 import numpy
 
-from striker import _native, spaces
+from striker import _native, checks, spaces
 from striker.options import tasks_of
 from striker.records import KickRecord
 
@@ -13,6 +13,7 @@ except ImportError:
     VectorEnv = object
 
 AUTORESET_MODES = ("next_step", "same_step")
+MOST_WORLDS, MOST_THREADS = 100_000, 256  # a world takes 18 KB, 63 KB with world="full"
 
 
 def _autoreset_mode(name):
@@ -51,12 +52,9 @@ class VectorKickEnv(VectorEnv):
 
     def __init__(self, num_envs=1, *, threads=1, autoreset_mode="next_step", copy=True, config=None,
                  reward_function=None, render_mode=None, **options):
-        mode = getattr(autoreset_mode, "name", autoreset_mode).lower()
-        if mode not in AUTORESET_MODES:
-            raise ValueError(f"autoreset_mode {autoreset_mode!r}: it may be {' or '.join(AUTORESET_MODES)}")
-        for name, value, greatest in (("num_envs", num_envs, 1_000_000), ("threads", threads, 256)):
-            if not 1 <= value <= greatest:
-                raise ValueError(f"{name} {value}: it may be 1 to {greatest}")
+        mode = checks.one_of("autoreset_mode", str(getattr(autoreset_mode, "name", autoreset_mode)).lower(), AUTORESET_MODES)
+        num_envs = checks.whole("num_envs", num_envs, 1, MOST_WORLDS)
+        threads = checks.whole("threads", threads, 1, MOST_THREADS)
         if render_mode is not None:
             raise ValueError("render_mode: many worlds are not drawn; make a KickEnv")
         self.render_mode = None
@@ -66,7 +64,8 @@ class VectorKickEnv(VectorEnv):
         self._arguments = {"num_envs": num_envs, "threads": threads, "autoreset_mode": mode, "copy": copy,
                            "config": self._tasks.text, "reward_function": reward_function}
         self._worlds = _native.KickWorlds(self._tasks, num_envs, threads, mode == "same_step")
-        self._same_step, self._copy, self._reward_function = mode == "same_step", copy, reward_function
+        self._same_step, self._copy = mode == "same_step", copy
+        self._reward_function = checks.function("reward_function", reward_function)
         self._begun = False
         self.set_points = numpy.array(self._tasks.set_points)
         inputs, actions = self._tasks.inputs, len(self.set_points)
@@ -75,6 +74,11 @@ class VectorKickEnv(VectorEnv):
         self.single_action_space = spaces.Discrete(actions)
         self.observation_space = spaces.Box(-numpy.inf, numpy.inf, (num_envs, inputs), numpy.float32)
         self.action_space = spaces.MultiDiscrete(numpy.full(num_envs, actions))
+
+    @property
+    def inputs(self):
+        """How many an observation has."""
+        return self._tasks.inputs
 
     @property
     def configuration(self):
@@ -89,9 +93,11 @@ class VectorKickEnv(VectorEnv):
     def reset(self, *, seed=None, options=None):
         if seed is None:
             seed = int(numpy.random.SeedSequence().generate_state(1)[0])
-        seeds = [int(one) for one in seed] if hasattr(seed, "__len__") else [int(seed)]
+        seeds = seed if isinstance(seed, (list, tuple)) or numpy.ndim(seed) > 0 else [seed]
+        seeds = [checks.whole("seed", one, 0, checks.GREATEST_SEED) for one in seeds]
+        first = checks.episode_of(options, 0, checks.GREATEST_SEED - self.num_envs)
         observations = self._new_arrays()[0]
-        self._worlds.reset(seeds, (options or {}).get("episode", 0), observations)
+        self._worlds.reset(seeds, first, observations)
         self._begun = True
         return observations, {}
 
@@ -104,27 +110,16 @@ class VectorKickEnv(VectorEnv):
         arrays = self._new_arrays() if self._copy else self._arrays
         records = numpy.empty((self.num_envs, len(KickRecord._fields))) if self._reward_function else None
         finals = numpy.zeros_like(arrays[0]) if self._same_step else None
+        if chosen.dtype == numpy.uint64:
+            chosen = numpy.minimum(chosen, numpy.uint64(2**63 - 1))  # none of them is an action, nor wraps to one
         ended = self._worlds.step(chosen.astype(numpy.int64, "C", copy=False), *arrays, records, finals)
         observations, rewards, terminated, truncated = arrays
         if records is not None:
             rewards[:] = self._reward_function(KickRecord(*records.T))
-        infos = self._infos(terminated | truncated, finals) if ended else {}
+        infos = self._worlds.infos(terminated, truncated) if ended else {}
+        if ended and self._same_step:
+            infos["final_obs"], infos["_final_obs"] = finals, infos["_episode_reward"]
         return observations, rewards, terminated, truncated, infos
-
-    def _infos(self, ended, finals):
-        table = self._worlds.outcomes()
-        infos = {}
-        for column, name in enumerate(_native.OUTCOME_FIELDS):
-            infos[name] = table[:, column]
-            infos["_" + name] = ended
-        contact = infos["contact"] = infos["contact"].astype(bool)
-        infos["front_face"] = infos["front_face"].astype(bool)
-        infos["contact_decision"] = infos["contact_decision"].astype(numpy.int64)
-        for name in ("contact_decision", "theta_contact_rad", "v_contact_m_s", "front_face"):
-            infos["_" + name] = ended & contact
-        if finals is not None:
-            infos["final_obs"], infos["_final_obs"] = finals, ended
-        return infos
 
     def close(self, **_):
         """Nothing to do: what it holds goes with it."""

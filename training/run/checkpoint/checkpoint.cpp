@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -91,7 +92,8 @@ void save_checkpoint(const std::filesystem::path& file, const Config& config, st
 
 RunState load_checkpoint(const std::filesystem::path& file, const Config& config, std::uint64_t seed,
                          AnyLearner& learner) {
-  const SafeTensors checkpoint = read_safetensors(host::read_file(file), file.string());
+  const SafeTensors checkpoint =
+      read_safetensors(host::read_file(file, std::numeric_limits<std::size_t>::max()), file.string());
   try {
     return restore(checkpoint, config, seed, learner);
   } catch (const std::exception& error) {
