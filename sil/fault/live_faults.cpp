@@ -27,7 +27,7 @@ bool can_begin_live(FaultKind kind, bool in_process) {
 }
 
 bool LiveFaults::begin(FaultKind kind, std::uint32_t for_ticks) {
-  if (!can_begin_live(kind, true) || faults_.size() == most_at_once) {
+  if (!can_begin_live(kind, in_process_) || faults_.size() == most_at_once) {
     return false;
   }
   const TimedFault timed{

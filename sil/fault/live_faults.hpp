@@ -20,9 +20,10 @@ namespace striker::sil {
 
 class LiveFaults final : public ControllerLink {
  public:
-  // `controller` is the same link where the controller is in this process and may have faults, or nothing. Both outlive it.
-  LiveFaults(ControllerLink& link, InProcessLink* controller, std::uint64_t seed)
-      : link_(&link), controller_(controller), seed_(seed) {}
+  // `controller` is the same link where that controller may have faults, or nothing; `in_process`: it is no real bus. Both
+  // outlive it.
+  LiveFaults(ControllerLink& link, InProcessLink* controller, bool in_process, std::uint64_t seed)
+      : link_(&link), controller_(controller), in_process_(in_process), seed_(seed) {}
 
   // From the next tick on. False, and nothing begins, if the kind is none of the above, not for this bus, or
   // `most_at_once` go on.
@@ -46,6 +47,7 @@ class LiveFaults final : public ControllerLink {
 
   ControllerLink* link_;
   InProcessLink* controller_;
+  bool in_process_;
   std::uint64_t seed_;
   std::uint64_t begun_ = 0;  // each draws from a stream of its own
   std::uint32_t next_tick_ = 0;

@@ -125,10 +125,10 @@ namespace {
 struct LiveLinks {
   std::array<std::unique_ptr<LiveFaults>, robots_in_match> faults;
 
-  LiveLinks(const MatchLinks& links, std::uint64_t seed) {
+  LiveLinks(const MatchLinks& links, bool in_process, std::uint64_t seed) {
     for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
-      faults[robot] =
-          std::make_unique<LiveFaults>(*links[robot], controller_behind(*links[robot]), seed + robot);
+      faults[robot] = std::make_unique<LiveFaults>(*links[robot], controller_behind(*links[robot]),
+                                                   in_process, seed + robot);
     }
   }
 };
@@ -155,7 +155,7 @@ int play_once(const MatchOptions& options, ViewSession* viewers) {
   }
   std::optional<LiveLinks> live;
   if (viewers != nullptr) {
-    live.emplace(links, options.setting.seed);
+    live.emplace(links, options.bus == "inproc", options.setting.seed);
   }
   for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
     parts.links[robot] = live ? live->faults[robot].get() : links[robot].get();
