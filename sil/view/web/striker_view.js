@@ -193,11 +193,11 @@ function showFacts() {
   const us = (value) => (value === null || value === undefined ? "not measured" : `${value} us`);
   showList(byId("facts"), [
     ["time", `${seconds(state.tick)} s${state.paused ? ", paused" : ""}`],
-    ["speed", state.speed === 0 ? "as fast as it goes" : `${state.speed} x, at most ${seconds(state.lateness_us)} ms late`],
+    ["speed", !hello.has_time ? "the wall clock's" : state.speed === 0 ? "as fast as it goes" : `${state.speed} x, at most ${seconds(state.lateness_us)} ms late`],
     ["state", robot.state ?? "nothing heard"],
     ["fault", `${robot.fault ?? ""}${robot.faults && robot.faults.length > 1 ? ` (${robot.faults.join(", ")})` : ""}`],
     ["place", `(${x}, ${y}) mm, ${heading} deg, ${robot.speed} mm/s`],
-    ["controller's tick", `late ${us(timing.lateness)}, takes ${us(timing.execution)}, ${timing.overruns ?? "?"} missed`],
+    ["controller's tick", `late ${us(timing.lateness)}, takes ${us(timing.execution)}, ${timing.overruns ?? "none known"} missed`],
     ["frames ignored", robot.ignored ? `length ${robot.ignored[0]}, CRC ${robot.ignored[1]}, counter ${robot.ignored[2]}, range ${robot.ignored[3]}` : ""],
     ["gate", robot.blocked === undefined ? "" : `${robot.blocked} commands held back, ${robot.lost} frames lost`],
   ]);

@@ -118,6 +118,7 @@ void Viewer::accept() {
   beast::get_lowest_layer(stream_).expires_never();
   stream_.set_option(websocket::stream_base::timeout{request_time, dead_after, true});
   stream_.read_message_max(most_command_bytes);
+  stream_.auto_fragment(false);
   hall_->viewers.insert(this);
   sending_ = std::make_shared<const std::string>(hall_->hello);  // what is shown meanwhile waits
   stream_.async_accept(parser_->get(), [self = shared_from_this()](Error error) {
