@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "firmware/can/codec.hpp"
 #include "sil/scenario/operator.hpp"
 
 namespace striker::sil {
@@ -33,6 +34,19 @@ bool stops_time(ViewAction action) {
          action == ViewAction::speed;
 }
 
+// By the controller's own words, as an operator hears them.
+bool is_stopped(const LiveRobot& robot) {
+  can::Status status;
+  can::Safety safety;
+  const can::Frame& of_status = robot.messages[kind_of_identifier[can::layout<can::Status>.info.id]].last;
+  const can::Frame& of_safety = robot.messages[kind_of_identifier[can::layout<can::Safety>.info.id]].last;
+  const auto stop = core::Fault::emergency_stop;
+  return (can::receive(of_status, status) == can::Verdict::accepted &&
+          status.fault == static_cast<std::int32_t>(stop)) ||
+         (can::receive(of_safety, safety) == can::Verdict::accepted &&
+          (static_cast<core::Faults>(safety.faults) & core::set_of(stop)) != 0);
+}
+
 }  // namespace
 
 LiveView::LiveView(ViewExchange& exchange, LiveViewPlan plan)
@@ -41,6 +55,7 @@ LiveView::LiveView(ViewExchange& exchange, LiveViewPlan plan)
 void LiveView::begin_run(LiveRun run) {
   run_ = std::move(run);
   restart_seed_.reset();
+  stop_due_ = {};
   state_ =
       LiveState{.run = state_.run + 1, .seed = run_.seed, .robot_count = run_.robots, .note = state_.note};
 }
@@ -60,6 +75,7 @@ void LiveView::begin_tick() {
   if (gate_.is_open()) {
     gate_.pace();
   }
+  send_stops();
 }
 
 void LiveView::end_tick(const Snapshot& snapshot) {
@@ -132,10 +148,24 @@ void LiveView::press_stop(std::optional<std::size_t> robot) {
   const std::size_t first = robot.value_or(0);
   const std::size_t behind = robot ? first + 1 : run_.robots;
   for (std::size_t one = first; one < behind; ++one) {
-    run_.say(one, Operator::emergency_stop());
+    stop_due_[one] = state_.tick;
   }
   gate_.run();
   note(robot ? fmt::format("emergency stop of robot {}", *robot) : "emergency stop");
+}
+
+void LiveView::send_stops() {
+  constexpr std::uint32_t again_ticks = 10;
+  for (std::size_t robot = 0; robot < run_.robots; ++robot) {
+    auto& due = stop_due_[robot];
+    if (due && *due <= state_.tick) {
+      run_.say(robot, Operator::emergency_stop());
+      due = state_.tick + again_ticks;
+    }
+    if (due && *due != state_.tick + again_ticks && is_stopped(state_.robots[robot])) {
+      due.reset();
+    }
+  }
 }
 
 void LiveView::begin_fault(const ViewCommand& command) {

@@ -4,8 +4,8 @@
 //
 // Time: a pause stops before the next tick, and looks for commands every millisecond. A step lets so many ticks pass. In a run
 // on the wall clock time cannot be stopped, and such commands are refused with a note.
-// An emergency stop is an operator's frame on the robot's bus, first of the next tick's, and ends a pause: it goes out at
-// once. A fault is a live one on the robot's link (fault/live_faults.hpp). A restart ends the run; whoever played it begins it
+// An emergency stop is an operator's frame on the robot's bus with the next tick's frames, and ends a pause: it goes out at
+// once. It is sent again every 10 ms until the controller says that it is stopped, as one that is off the bus hears none. A fault is a live one on the robot's link (fault/live_faults.hpp). A restart ends the run; whoever played it begins it
 // anew with `restart_seed`.
 //
 //   LiveView view(exchange, {.speed = 1.0, .has_time = true, .stop = host::stop_requested});
@@ -65,6 +65,7 @@ class LiveView final : public Observer, public MatchObserver {
   void obey();
   void obey(const ViewCommand& command);
   void press_stop(std::optional<std::size_t> robot);
+  void send_stops();
   void begin_fault(const ViewCommand& command);
   void note(std::string_view text);
   void tally(std::size_t robot, const RobotSnapshot& seen, bool with_wheels);
@@ -77,6 +78,8 @@ class LiveView final : public Observer, public MatchObserver {
   TimeGate gate_;
   LiveRun run_;
   LiveState state_;
+  std::array<std::optional<std::uint32_t>, most_viewed_robots> stop_due_ =
+      {};  // in this tick, where one was pressed
   std::optional<std::uint64_t> restart_seed_;
 };
 

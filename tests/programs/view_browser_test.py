@@ -140,7 +140,11 @@ class Page(unittest.TestCase):
         for robot in range(10):
             with gzip.open(os.path.join(self.folder, f"out/bus/vcan{robot}.log.gz"), "rt") as log:
                 lines = log.readlines()
-            self.assertEqual(len(list(frames(lines, STOP))), 2 if robot == 2 else 1, robot)
+            stops = len(list(frames(lines, STOP)))
+            if robot == 4:  # which may be off its bus when it is pressed, and then hears a later one
+                self.assertGreaterEqual(stops, 1)
+            else:
+                self.assertEqual(stops, 2 if robot == 2 else 1, robot)
             self.assertEqual(gaps(frames(lines, COMMAND)), [501] if robot == 4 else [], robot)
             self.assertEqual(any(frames(lines, FAULT_REPORT)), True)
 

@@ -99,6 +99,19 @@ TEST(LiveView, AnEmergencyStopIsOneFrameOnTheBusAndEndsAKickRun) {
   EXPECT_EQ(run.ticks(), 1003U) << "that of the stop, and one to disarm";
 }
 
+TEST(LiveView, AnEmergencyStopIsRepeatedUntilTheControllerHasIt) {
+  Viewed run;
+  run.play(two_kicks, [](Viewed& self, std::uint32_t tick) {
+    if (tick == 1000) {
+      self.put({.action = ViewAction::fault, .robot = 0, .kind = FaultKind::interface_down, .for_ms = 55});
+      self.put({.action = ViewAction::stop});
+    }
+  });
+  EXPECT_EQ(run.count(can::layout<can::EmergencyStop>.info.id), 7U);
+  EXPECT_TRUE(run.outcomes.empty());
+  EXPECT_EQ(run.ticks(), 1063U);
+}
+
 // From another thread, as a person would.
 class Presser {
  public:
