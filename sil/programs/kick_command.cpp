@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -14,13 +14,11 @@
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
 #include "firmware/policy/built_in.hpp"
-#include "sil/bus/bit_rate.hpp"
-#include "sil/bus/in_process_link.hpp"
-#include "sil/bus/socketcan_link.hpp"
-#include "sil/bus/timed_link.hpp"
 #include "sil/policy/loaded_pilot.hpp"
 #include "sil/policy/policy_file.hpp"
+#include "sil/programs/kick/kick_bus.hpp"
 #include "sil/programs/robot_options.hpp"
+#include "sil/programs/view/view_session.hpp"
 #include "sil/record/candump_log.hpp"
 #include "sil/record/decision_csv.hpp"
 #include "sil/record/episode_journal.hpp"
@@ -35,49 +33,9 @@ namespace striker::sil {
 
 namespace {
 
-// The way to the controller: in process or over a socket, and a bus in time around that if time is asked for.
-struct Bus {
-  std::unique_ptr<InProcessLink> in_process;    // with the built-in policy; or ...
-  std::unique_ptr<ControllerLink> with_policy;  // ... with the one that --policy names
-  std::unique_ptr<ControllerLink> socket;
-  std::unique_ptr<TimedLink> timed;
-
-  [[nodiscard]] ControllerLink& untimed() const {
-    return in_process ? static_cast<ControllerLink&>(*in_process) : with_policy ? *with_policy : *socket;
-  }
-  [[nodiscard]] ControllerLink& link() const { return timed ? *timed : untimed(); }
-};
-
-core::RobotDescription robot_of(const KickOptions& options) {
-  return described_robot(options.robot, options.policy.empty() ? nullptr : LoadedPilot::suits);
-}
-
-Bus open_bus(const KickOptions& options) {
-  Bus bus;
-  const std::string interface = interface_of(options.bus);
-  if (!options.policy.empty()) {
-    bus.with_policy = std::make_unique<NodeLink<LoadedNode>>(core::profile_of(robot_of(options)));
-  } else if (options.in_process()) {
-    bus.in_process = std::make_unique<InProcessLink>(core::profile_of(robot_of(options)));
-  } else if (options.real_time) {
-    bus.socket = std::make_unique<FreeRunningLink>(interface);
-  } else {
-    bus.socket = std::make_unique<LockstepLink>(
-        interface, SocketCanOptions{std::chrono::milliseconds(options.answer_timeout_ms),
-                                    std::chrono::milliseconds(options.start_timeout_ms)});
-  }
-  if (options.bitrate != 0) {
-    bus.timed = std::make_unique<TimedLink>(
-        bus.untimed(), TimedBusOptions{.bit_ns = bit_time_ns(options.bitrate),
-                                       .step_ns = std::llround(options.step_us * 1e3),
-                                       .vision_phase_ns = std::llround(options.vision_phase_us * 1e3)});
-  }
-  return bus;
-}
-
 using Observers = std::vector<std::unique_ptr<Observer>>;
 
-Observers make_observers(const KickOptions& options, const Bus& bus) {
+Observers make_observers(const KickOptions& options, const KickBus& bus) {
   Observers observers;
   if (options.real_time) {
     observers.push_back(std::make_unique<Pacer>());
@@ -111,7 +69,7 @@ std::string name_of_policy(const std::string& identity, const LoadedPolicy& load
 // Robot, link and run. The observers' files are complete when it returns.
 class KickSession {
  public:
-  KickSession(const KickOptions& options, const LoadedPolicy& policy, const Bus& bus,
+  KickSession(const KickOptions& options, const LoadedPolicy& policy, const KickBus& bus,
               const std::vector<Observer*>& observers)
       : options_(&options),
         policy_(&policy),
@@ -139,6 +97,9 @@ class KickSession {
                    .needs_controller = options.real_time},
                   seat_, observers) {}
 
+  // Onto the bus with the next tick.
+  void say(const can::Frame& frame) { seat_.queue(frame); }
+
   // The JSON line of the episode that has just ended.
   [[nodiscard]] std::string last_row() const {
     const std::uint64_t episode = options_->first + scenario_.outcomes().size() - 1;
@@ -146,11 +107,12 @@ class KickSession {
     return row_line(episode, scenario_.outcomes().back(), driven);
   }
 
-  Played play() {
+  // `ends` is asked after every tick.
+  Played play(const std::function<bool()>& ends) {
     Played played;
     const auto start = std::chrono::steady_clock::now();
     try {
-      scenario_.run(host::stop_requested);
+      scenario_.run(ends);
     } catch (const std::runtime_error& error) {
       if (scenario_.outcomes().empty()) {
         throw;
@@ -233,15 +195,16 @@ void write_summary(const KickRun& run, const std::string& file, EpisodeJournal& 
   journal.done();
 }
 
-}  // namespace
+void show_to(ViewSession& viewers, const KickOptions& options, const KickBus& bus, KickSession& session) {
+  viewers.view.begin_run({.seed = options.seed,
+                          .robots = 1,
+                          .say = [&session](std::size_t, const can::Frame& frame) { session.say(frame); },
+                          .faults = {bus.live.get()},
+                          .controllers = {bus.in_process.get()}});
+}
 
-int play_kicks(const KickOptions& options) {
-  LoadedPolicy policy;
-  if (!options.policy.empty()) {
-    policy = load_policy(options.policy);
-    LoadedPilot::fly(policy);
-  }
-  const Bus bus = open_bus(options);
+int play_once(const KickOptions& options, const LoadedPolicy& policy, ViewSession* viewers) {
+  const KickBus bus = open_bus(options);
   const Observers owned = make_observers(options, bus);
   std::vector<Observer*> observers;
   for (const auto& observer : owned) {
@@ -253,8 +216,17 @@ int play_kicks(const KickOptions& options) {
     journal.emplace(options.json, [&] { return session->last_row(); });
     observers.push_back(&*journal);
   }
+  if (viewers != nullptr) {
+    observers.push_back(&viewers->view);
+  }
   session = std::make_unique<KickSession>(options, policy, bus, observers);
-  const Played played = session->play();
+  if (viewers != nullptr) {
+    show_to(*viewers, options, bus, *session);
+  }
+  const Played played = session->play([&] { return host::stop_requested() || wants_another(viewers); });
+  if (wants_another(viewers) && !host::stop_requested()) {
+    return 0;
+  }
   fmt::print("{}", format_table(played.run, played.run.episodes.size() <= 50));
   if (bus.timed) {
     report_bus(options.bitrate, bus.timed->report());
@@ -263,6 +235,41 @@ int play_kicks(const KickOptions& options) {
     write_summary(played.run, options.json, *journal);
   }
   return tell_ending(options, played);
+}
+
+std::string why_ended(int status) {
+  switch (status) {
+    case 0:
+      return "all episodes were played";
+    case exit_not_driven:
+      return "some episodes were not driven all along (exit status 3)";
+    case exit_emergency_stop:
+      return "emergency stop (exit status 4)";
+    case host::exit_interrupted:
+      return "interrupted (exit status 130)";
+    default:
+      return fmt::format("exit status {}", status);
+  }
+}
+
+}  // namespace
+
+int play_kicks(const KickOptions& given) {
+  KickOptions options = given;
+  LoadedPolicy policy;
+  if (!options.policy.empty()) {
+    policy = load_policy(options.policy);
+    LoadedPilot::fly(policy);
+  }
+  const auto viewers =
+      open_view(options.view, {.scenario = "kick", .teams = {}, .faults = {}, .has_time = !options.real_time},
+                options.in_process());
+  int status = 0;
+  do {
+    status = play_once(options, policy, viewers.get());
+  } while (begins_anew(viewers.get(), options.seed));
+  finish(viewers.get(), why_ended(status));
+  return status;
 }
 
 }  // namespace striker::sil

@@ -100,6 +100,7 @@ void define(CLI::App& kick, KickOptions& options) {
   define_bus_time(kick, options);
   define_clock(kick, options);
   define_files(kick, options);
+  define_view(kick, options.view);
   kick.final_callback([&kick, &options] {
     const bool is_on_own_clock = options.real_time && !options.in_process();
     host::require_meaning(kick, !is_on_own_clock, {"--bitrate"},

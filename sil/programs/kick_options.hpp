@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "sil/programs/view/view_options.hpp"
+
 namespace striker::sil {
 
 // For --bus: what is wrong with it, and the way out; and the interface of can:IFACE.
@@ -34,6 +36,7 @@ struct KickOptions {
   std::string json;
   std::string log;
   std::string decisions;
+  ViewOptions view;
 
   [[nodiscard]] bool in_process() const { return bus == "inproc"; }
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operator of one controller: gives mode commands, confirms what the controller asks back, and hears what it
-// says of itself. Nobody but a person clears an emergency stop: this operator does not.
+// says of itself. Nobody but a person presses an emergency stop, or clears it: this operator does neither by itself.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,12 @@ class Operator {
   // A disarm or a renewal acts at once. Arming and clearing are requests: `confirmation` follows.
   [[nodiscard]] can::Frame order(can::Mode mode);
   void hear(std::span<const can::Frame> frames);
+
+  // What a person's button sends; it acts whatever its counter.
+  [[nodiscard]] static can::Frame emergency_stop() {
+    can::SendCounter counter;
+    return can::send(can::EmergencyStop{}, counter);
+  }
 
   // The answer to the controller's challenge, once, if it was for what this operator had asked for.
   [[nodiscard]] std::optional<can::Frame> confirmation();

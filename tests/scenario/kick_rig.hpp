@@ -38,6 +38,9 @@ class KickRig {
     return scenario.outcomes();
   }
 
+  // Onto the bus with the next tick.
+  void say(const can::Frame& frame) { seat_.queue(frame); }
+
   StrikerDrives drives;
   std::vector<std::uint64_t> undriven;  // of the last play
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sil/fault/live_faults.hpp"
+
 namespace striker::sil {
 
 MatchRobot::MatchRobot(std::size_t robot, const core::RobotDescription& description,
@@ -20,7 +22,7 @@ MatchRobot::MatchRobot(std::size_t robot, const core::RobotDescription& descript
                                                          .drives = drives_,
                                                          .camera = camera_,
                                                          .link = link,
-                                                         .controller = dynamic_cast<InProcessLink*>(&link)},
+                                                         .controller = controller_behind(link)},
                                               faults.faults, faults.seed);
   seat_ = &faulty_seat_->seat();
 }

@@ -50,6 +50,9 @@ class MatchRobot {
   // In the field frame.
   void is_told(const RobotOrder& order, std::uint32_t tick);
 
+  // With the next tick's frames.
+  void queue(const can::Frame& frame) { seat_->queue(frame); }
+
   void begin_tick(std::uint32_t tick);
   void end_tick(std::uint32_t tick);
   void actuate(World& world, std::uint32_t tick) { seat_->actuate(world, tick); }

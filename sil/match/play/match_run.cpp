@@ -220,6 +220,9 @@ void MatchRun::run_frame() {
 }
 
 void MatchRun::run_tick() {
+  for (Observer* bus : parts_.buses) {
+    bus->begin_tick();
+  }
   for (const auto& robot : robots_) {
     robot->begin_tick(tick_);
   }

@@ -60,6 +60,8 @@ class MatchRun {
   void begin();
   void see_frame();
   void end_frame();
+  // Sent on this robot's bus with the next tick's frames: what somebody beside its operator and its team says.
+  void say(std::size_t robot, const can::Frame& frame) { robots_[robot]->queue(frame); }
   // What a team is shown of the frame that was seen last.
   [[nodiscard]] TeamView view(Team team) const;
 

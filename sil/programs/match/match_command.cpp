@@ -21,6 +21,7 @@
 #include "sil/match/team/tcp/tcp_strategy.hpp"
 #include "sil/programs/kick_options.hpp"
 #include "sil/programs/match/match_options.hpp"
+#include "sil/programs/view/view_session.hpp"
 
 namespace striker::sil {
 
@@ -115,9 +116,35 @@ void define(CLI::App& match, MatchOptions& options) {
       "a plan of faults whose cases are named robot0 to robot9 (sil/fault/README.md); inproc, or those of a real bus"));
   match.add_option("-o,--out", options.out,
                    "directory of everything that the match writes; made if it is not there");
+  define_view(match, options.view);
 }
 
-int play_match(const MatchOptions& options) {
+namespace {
+
+// What viewers may put on a robot's bus stands around its link.
+struct LiveLinks {
+  std::array<std::unique_ptr<LiveFaults>, robots_in_match> faults;
+
+  LiveLinks(const MatchLinks& links, bool in_process, std::uint64_t seed) {
+    for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
+      faults[robot] = std::make_unique<LiveFaults>(*links[robot], controller_behind(*links[robot]),
+                                                   in_process, seed + robot);
+    }
+  }
+};
+
+void show_to(ViewSession& viewers, const MatchOptions& options, const LiveLinks& links, MatchRun& run) {
+  LiveRun live{.seed = options.setting.seed,
+               .robots = robots_in_match,
+               .say = [&run](std::size_t robot, const can::Frame& frame) { run.say(robot, frame); }};
+  for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
+    live.faults[robot] = links.faults[robot].get();
+    live.controllers[robot] = links.faults[robot]->controller();
+  }
+  viewers.view.begin_run(std::move(live));
+}
+
+int play_once(const MatchOptions& options, ViewSession* viewers) {
   const MatchLinks links = open_links(options);
   std::array<std::unique_ptr<Strategy>, 2> strategies;
   MatchParts parts;
@@ -126,8 +153,12 @@ int play_match(const MatchOptions& options) {
     strategy = make_team(options, team);
     parts.teams[index_of(team)] = strategy.get();
   }
+  std::optional<LiveLinks> live;
+  if (viewers != nullptr) {
+    live.emplace(links, options.bus == "inproc", options.setting.seed);
+  }
   for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
-    parts.links[robot] = links[robot].get();
+    parts.links[robot] = live ? live->faults[robot].get() : links[robot].get();
   }
   MatchProgress progress(options.first_s);
   std::vector<MatchObserver*> records = {&progress};
@@ -143,6 +174,10 @@ int play_match(const MatchOptions& options) {
   if (!options.out.empty()) {
     buses.push_back(&logs.emplace(options.out / "bus", robots_in_match));
   }
+  if (viewers != nullptr) {
+    records.push_back(&viewers->view);
+    buses.push_back(&viewers->view);
+  }
   parts.records = records;
   parts.buses = buses;
   MatchPlan plan = plan_of(options.setting);
@@ -150,12 +185,19 @@ int play_match(const MatchOptions& options) {
     add_faults(plan, host::read_file(options.faults), options.faults);
   }
   MatchRun run(plan, parts);
+  if (viewers != nullptr) {
+    show_to(*viewers, options, *live, run);
+  }
   const auto start = std::chrono::steady_clock::now();
   const auto is_enough = [&] {
-    return host::stop_requested() || (options.first_s > 0.0 && run.simulated_s() >= options.first_s);
+    return host::stop_requested() || wants_another(viewers) ||
+           (options.first_s > 0.0 && run.simulated_s() >= options.first_s);
   };
   const MatchEnd end = run.run(is_enough);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  if (wants_another(viewers) && !host::stop_requested()) {
+    return 0;
+  }
   if (!options.out.empty()) {
     write_timing({.simulated_s = run.simulated_s(), .wall_s = wall.count()}, options.out);
   }
@@ -164,6 +206,23 @@ int play_match(const MatchOptions& options) {
              end.complete ? "" : " (incomplete)", run.simulated_s(), run.simulated_s() / wall.count(),
              end.state_hash);
   return host::stop_requested() ? host::exit_interrupted : 0;
+}
+
+}  // namespace
+
+int play_match(const MatchOptions& given) {
+  MatchOptions options = given;
+  const auto viewers = open_view(options.view,
+                                 {.scenario = "match",
+                                  .teams = {options.setting.teams.begin(), options.setting.teams.end()},
+                                  .faults = {}},
+                                 options.bus == "inproc");
+  int status = 0;
+  do {
+    status = play_once(options, viewers.get());
+  } while (begins_anew(viewers.get(), options.setting.seed));
+  finish(viewers.get(), status == 0 ? "the match was played to its end" : "interrupted (exit status 130)");
+  return status;
 }
 
 }  // namespace striker::sil

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sil/match/play/match_setting.hpp"
+#include "sil/programs/view/view_options.hpp"
 
 namespace striker::sil {
 
@@ -18,6 +19,7 @@ struct MatchOptions {
   double first_s = 0.0;  // play no more than so much simulated time; 0: the whole match
   std::string faults;    // a plan's file
   std::filesystem::path out;
+  ViewOptions view;
 };
 
 void define(CLI::App& match, MatchOptions& options);

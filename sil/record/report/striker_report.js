@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws `runs` (striker_runs.py). "#run=0&replay=3&time=1200" in the address opens a moment; moving a slider writes it.
+// Draws `runs` (striker_runs.py), with striker_field.js before it. "#run=0&replay=3&time=1200" in the address opens a
+// moment; moving a slider writes it.
 "use strict";
-
-const field = { halfLength: 3900, halfWidth: 2325, goalHalfWidth: 500, goalBack: 4350 };
-
-function element(name, text, parent) {
-  const made = document.createElement(name);
-  if (text !== undefined) {
-    made.textContent = text === null ? "" : String(text);
-  }
-  parent?.append(made);
-  return made;
-}
 
 // The place of the last entry that is not later.
 function placeOf(times, time) {
@@ -104,64 +94,24 @@ class Replay {
   draw() {
     const { canvas, replay, place } = this;
     const context = canvas.getContext("2d");
-    const scale = canvas.width / 9200;
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, canvas.width, canvas.height);
-    context.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2);
-    context.lineWidth = 1.5 / scale;
-    context.strokeStyle = "#7a8a7a";
-    context.strokeRect(-field.halfLength, -field.halfWidth, 2 * field.halfLength, 2 * field.halfWidth);
-    for (const side of [-1, 1]) {
-      const from = side < 0 ? -field.goalBack : field.halfLength;
-      context.strokeRect(from, -field.goalHalfWidth, field.goalBack - field.halfLength, 2 * field.goalHalfWidth);
-    }
+    const scale = drawField(context);
     const style = getComputedStyle(document.documentElement);
     const colours = [style.getPropertyValue("--robot"), style.getPropertyValue("--other")];
-    this.trail(context, replay.ball, style.getPropertyValue("--ball"));
+    const recent = (path) => path.slice(Math.max(0, place - 40), place + 1);  // two seconds
+    drawTrail(context, recent(replay.ball), style.getPropertyValue("--ball"));
     replay.robots.forEach((path, robot) => {
       const colour = colours[replay.robots.length > 1 && robot < 5 ? 1 : 0];
       if (replay.robots.length === 1) {
-        this.trail(context, path, colour);
+        drawTrail(context, recent(path), colour);
       }
       if (path[place]) {
         drawRobot(context, path[place], colour, scale);
       }
     });
     if (replay.ball[place]) {
-      context.beginPath();
-      context.arc(replay.ball[place][0], replay.ball[place][1], 50, 0, 2 * Math.PI);
-      context.fillStyle = style.getPropertyValue("--ball");
-      context.fill();
+      drawBall(context, replay.ball[place], style.getPropertyValue("--ball"));
     }
   }
-
-  // Of the last two seconds.
-  trail(context, path, colour) {
-    context.beginPath();
-    for (let place = Math.max(0, this.place - 40); place <= this.place; ++place) {
-      if (path[place]) {
-        context.lineTo(path[place][0], path[place][1]);
-      }
-    }
-    context.strokeStyle = colour;
-    context.stroke();
-  }
-}
-
-function drawRobot(context, [x, y, heading], colour, scale) {
-  const side = 150;
-  context.save();
-  context.translate(x, y);
-  context.rotate(heading * Math.PI / 180);
-  context.fillStyle = colour;
-  context.fillRect(-side / 2, -side / 2, side, side);
-  context.beginPath();
-  context.moveTo(0, 0);
-  context.lineTo(side / 2, 0);
-  context.strokeStyle = "white";
-  context.lineWidth = 2 / scale;
-  context.stroke();
-  context.restore();
 }
 
 function addTable(table, view, parent) {

@@ -26,14 +26,16 @@ from striker_runs import read_run
 HERE = os.path.dirname(os.path.realpath(__file__))
 
 
+def text_of(name):
+    with open(os.path.join(HERE, name), encoding="utf-8") as file:
+        return file.read()
+
+
 def page_of(runs):
-    with open(os.path.join(HERE, "striker_report.html"), encoding="utf-8") as file:
-        page = file.read()
-    with open(os.path.join(HERE, "striker_report.js"), encoding="utf-8") as file:
-        script = file.read()
+    page, field, script = map(text_of, ("striker_report.html", "striker_field.js", "striker_report.js"))
     # "</" would end the script's element, whatever stands around it.
     data = json.dumps(runs, separators=(",", ":")).replace("</", "<\\/")
-    return page.replace("/*SCRIPT*/", f"const runs = {data};\n{script}")
+    return page.replace("/*SCRIPT*/", f"const runs = {data};\n{field}\n{script}")
 
 
 def write_whole(file, text):
