@@ -103,11 +103,16 @@ def summary_of(file):
         raise LogError(f"{file}: is no summary of kicks ({error})") from error
 
 
+def rows_of(file, count):
+    """What is known of each of so many episodes."""
+    rows = summary_of(file)["rows"]
+    if len(rows) != count:
+        raise LogError(f"{file}: has {len(rows)} episodes, the log has {count}; give those of one run")
+    return rows
+
+
 def rewards_of(file, count):
-    rewards = [row["reward"] for row in summary_of(file)["rows"]]
-    if len(rewards) != count:
-        raise LogError(f"{file}: has {len(rewards)} episodes, the log has {count}; give those of one run")
-    return rewards
+    return [row["reward"] for row in rows_of(file, count)]
 
 
 def places_of(file):
