@@ -2,6 +2,7 @@
 // Draws `runs` (striker_runs.py). "#run=0&replay=3&time=1200" in the address opens a moment; moving a slider writes it.
 "use strict";
 
+const runs = JSON.parse(document.getElementById("data").textContent);
 const field = { halfLength: 3900, halfWidth: 2325, goalHalfWidth: 500, goalBack: 4350 };
 
 function element(name, text, parent) {
@@ -36,6 +37,7 @@ class Replay {
     this.canvas = element("canvas", undefined, parent);
     this.canvas.width = 1200;
     this.canvas.height = 660;
+    this.canvas.className = "field";
     this.slider = element("input", undefined, parent);
     this.slider.type = "range";
     this.slider.setAttribute("aria-label", "time");
@@ -43,6 +45,8 @@ class Replay {
     this.state = element("div", undefined, parent);
     this.state.className = "state";
     this.state.id = `state${number}`;
+    this.plots = element("div", undefined, parent);
+    this.charts = [];
     this.marks = element("ul", undefined, element("div", undefined, parent));
     this.marks.parentElement.className = "scroll";
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value), true));
@@ -61,6 +65,9 @@ class Replay {
       mark.dataset.time = time;
       mark.addEventListener("click", () => this.showTime(time));
     }
+    this.plots.replaceChildren();
+    this.charts = chartsOf(this.replay).map((chart) =>
+      new Chart(chart, this.plots, (time_s) => this.showTime(Math.round(1000 * time_s))));
     this.show(0, false);
   }
 
@@ -73,6 +80,7 @@ class Replay {
     this.slider.value = place;
     this.draw();
     this.describe();
+    this.charts.forEach((chart) => chart.draw(this.replay.times[place] / 1000));
     if (isNamed) {
       const time = this.replay.times[place];
       history.replaceState(null, "", `#run=${this.number}&replay=${this.which}&time=${time}`);
@@ -92,7 +100,11 @@ class Replay {
   describe() {
     const { replay, place } = this;
     const ball = replay.ball[place];
-    const lines = [`${replay.name}: ${(replay.times[place] / 1000).toFixed(3)} s`, replay.notes[place]];
+    const lines = [`${replay.name}: ${(replay.times[place] / 1000).toFixed(3)} s`, whereInLog(replay, place)];
+    const decision = replay.decisions[place];
+    if (decision) {
+      lines.push(`action ${decision[0]}, Q ${decision[1].toFixed(2)}, next best ${decision[2].toFixed(2)}`);
+    }
     lines.push(ball ? `ball (${ball[0]}, ${ball[1]}) mm` : "ball not seen");
     replay.robots.forEach((path, robot) => {
       const pose = path[place];
@@ -148,6 +160,27 @@ class Replay {
   }
 }
 
+// Where the log tells what is shown.
+function whereInLog({ log, lines, times }, place) {
+  if (lines.length > 0) {
+    return `${log} line ${lines[place]}`;
+  }
+  return `${log} at (${(times[place] / 1000).toFixed(6).padStart(17, "0")})`;
+}
+
+// What a replay plots over its time, as charts; Q where there are decisions.
+function chartsOf({ times, plots, decisions }) {
+  const x = times.map((time) => time / 1000);
+  const charts = plots.map(({ y, series }) =>
+    ({ x: "time, s", y, series: series.map(({ name, values, dashed }) => ({ name, x, y: values, dashed })) }));
+  const at = decisions.map((decision, place) => (decision ? place : -1)).filter((place) => place >= 0);
+  if (at.length > 0) {
+    charts.push({ x: "time, s", y: "Q, units of reward", series: ["Q of the action", "Q of the next best"].map((name, which) =>
+      ({ name, x: at.map((place) => x[place]), y: at.map((place) => decisions[place][which + 1]), dashed: which === 1 })) });
+  }
+  return charts;
+}
+
 function drawRobot(context, [x, y, heading], colour, scale) {
   const side = 150;
   context.save();
@@ -192,6 +225,10 @@ const views = runs.map((run, number) => {
   facts.className = "facts";
   run.facts.forEach(([name, value]) => element("li", `${name}: ${value}`, facts));
   const view = run.replays.length > 0 ? new Replay(run, number, section) : undefined;
+  run.charts.forEach((chart) => {
+    element("h3", chart.name, section);
+    new Chart(chart, section);
+  });
   run.tables.forEach((table) => addTable(table, view, section));
   return view;
 });
@@ -209,4 +246,4 @@ function openMoment() {
 addEventListener("hashchange", openMoment);
 openMoment();
 document.getElementById("summary").textContent =
-  `${runs.length} runs. Move a slider, or click an event or an episode; the address keeps the moment.`;
+  `${runs.length} runs. Move a slider, or click a plot, an event or an episode; the address keeps the moment.`;
