@@ -73,6 +73,7 @@ ARROWS = {
                             "sil/world", "firmware/host"],
     "training/ceiling": ["training/run", "training/search", "training/line", "training/learner", "training/task", "sil/task", "sil/world",
                          "firmware/core", "firmware/host"],
+    "training/plane": ["training/export", "training/line", "training/learner", "training/task", "sil/task", "sil/world"],
     "training/programs": ["training", "sil/robot/description", "sil/task", "sil/world", "firmware/core", "firmware/host"],
     "training/python": ["training", "sil/robot/description", "sil/match", "sil/task", "sil/world", "firmware/core"],
     "training/benchmarks": ["training", "sil/task", "sil/world"],

@@ -3,7 +3,7 @@
 """What striker-plot-kick makes of a bus log: the pictures that it promises, the same bytes again, what it drew found again
 in the picture, and one line about what it cannot draw.
 
-Usage: plot_kick_test.py BIN ROOT   (the folder of the programs, and the project's)
+Usage: plot_kick_test.py BIN   (the folder of the programs)
 """
 
 import os
@@ -12,7 +12,7 @@ import sys
 import tempfile
 import unittest
 
-BIN, ROOT = sys.argv.pop(1), sys.argv.pop(1)
+BIN = sys.argv.pop(1)
 PICTURES = sorted(f"{name}.{kind}" for name in ("paths", "kick") for kind in ("svg", "png"))
 
 
@@ -56,14 +56,6 @@ class PlotKick(unittest.TestCase):
             self.assertGreater(len(picture), 10_000, name)
             self.assertIn(b"striker-plot-kick bus.log --json kick.json", picture, name)
             self.assertNotIn(b"<dc:date>", picture, name)
-
-    def test_the_picture_of_the_readme_is_made_again(self):
-        log, summary = (os.path.join(self.folder.name, "twenty", name) for name in ("bus.log", "kick.json"))
-        os.mkdir(os.path.dirname(log))
-        played = run("striker-sil", "kick", "--episodes", "20", "--seed", "1", "--log", log, "--json", summary)
-        self.assertEqual(played.returncode, 0, played.stderr)
-        with open(os.path.join(ROOT, "sil/record/pictures/kicks.svg"), "rb") as file:
-            self.assertEqual(self.draw("readme", log, "--json", summary)["paths.svg"], file.read())
 
     def test_every_episode_has_its_panel_and_its_reward(self):
         with open(self.summary, encoding="utf-8") as file:

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "firmware/host/files.hpp"
 #include "firmware/host/version.hpp"
@@ -138,6 +139,27 @@ std::vector<Variant> network_widths(const std::string& base_text, const std::str
                        {fmt::format("network.hidden=[{0}, {0}]", width)}});
   }
   return vary(base_text, base_name, changes);
+}
+
+std::vector<Variant> compared_variants(const std::vector<std::filesystem::path>& files,
+                                       const std::vector<std::string>& changes) {
+  std::vector<Variant> variants;
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.stem().string();
+    Variant variant{.name = name, .says = name, .config = load_config(file, changes)};
+    for (const Variant& other : variants) {
+      if (other.name == name) {
+        throw std::runtime_error(
+            fmt::format("{}: another file is named {}, too; give one another name", file.string(), name));
+      }
+      if (other.config.text == variant.config.text) {
+        throw std::runtime_error(
+            fmt::format("{}: is the same training as {}; change a key of it", file.string(), other.name));
+      }
+    }
+    variants.push_back(std::move(variant));
+  }
+  return variants;
 }
 
 std::string name_of(const SeedRun& run) {

@@ -35,6 +35,11 @@ struct Variant {
 // Networks from half to three times the width of `base`'s default, 64: the paper does not give its own.
 [[nodiscard]] std::vector<Variant> network_widths(const std::string& base_text, const std::string& base_name);
 
+// Other people's: one variant a file, named as the file is without its extension; `changes` go for all. Throws
+// std::runtime_error, naming the file, if a name stands twice or two files are the same training.
+[[nodiscard]] std::vector<Variant> compared_variants(const std::vector<std::filesystem::path>& files,
+                                                     const std::vector<std::string>& changes);
+
 struct SeedRun {
   const Variant* variant = nullptr;
   std::uint64_t seed = 0;

@@ -65,6 +65,7 @@ Crossing crossing(const std::vector<Values>& averages, double level) {
     episodes.push_back(static_cast<double>(above - run.begin() + moving_average_span));
   }
   result.episode = median(episodes);
+  result.never = static_cast<double>(averages.front().size() + moving_average_span);
   return result;
 }
 

@@ -22,6 +22,7 @@ struct Estimate {
 struct Crossing {
   Estimate episode;  // median over the seeds; a run that never does counts as its last episode + 1
   int reached = 0;   // runs that do
+  double never = 0;  // the last episode + 1
 };
 
 inline constexpr int crossing_levels = 4;  // -4, 0, 50 % and 90 % of the way from the floor to the ceiling

@@ -24,8 +24,14 @@ std::string figure(const Estimate& estimate) {
 std::string figure(const Crossing& crossing, int runs) {
   const std::string reached =
       crossing.reached == runs ? std::string() : fmt::format(", {} of {} runs", crossing.reached, runs);
-  return fmt::format("{:.0f} [{:.0f}, {:.0f}]{}", crossing.episode.value, crossing.episode.interval.low,
-                     crossing.episode.interval.high, reached);
+  const auto episode = [&crossing](double value) {
+    return value < crossing.never ? fmt::format("{:.0f}", value) : std::string("never");
+  };
+  if (crossing.reached == 0) {
+    return "never";
+  }
+  return fmt::format("{} [{}, {}]{}", episode(crossing.episode.value), episode(crossing.episode.interval.low),
+                     episode(crossing.episode.interval.high), reached);
 }
 
 std::string summary_markdown(const std::vector<VariantSummary>& summaries, double ceiling) {

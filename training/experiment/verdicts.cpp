@@ -54,12 +54,11 @@ std::string claims_table(const std::vector<VariantSummary>& summaries) {
 
 std::string readings_table(const std::vector<VariantSummary>& summaries) {
   constexpr double paper_crossing = 1500.0;
-  constexpr double paper_best = 6.8;
   // In units of what one would still call similar: a reward of 1, 500 episodes.
   const auto distance = [](const VariantSummary& s) {
     const double start = std::max(0.0, s.start.value - floor_reward);
     return start + std::abs(s.crossings[0].episode.value - paper_crossing) / 500.0 +
-           std::abs(s.best.value - paper_best);
+           std::abs(s.best.value - paper_best_reward);
   };
   std::string text =
       "The paper: below -4 at first, above it from about episode 1,500, best 6.8. Distance: how far the first average "

@@ -9,6 +9,8 @@
 
 namespace striker::training {
 
+inline constexpr double paper_best_reward = 6.8;  // the greatest value of its RCS curve, read off the figure
+
 // The paper's three claims beside what was found, from the paper's experiment (claims.md).
 [[nodiscard]] std::string claims_table(const std::vector<VariantSummary>& summaries);
 

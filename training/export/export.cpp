@@ -29,13 +29,19 @@ Agreement compare(const Parameters& parameters, const StateInputs& inputs, const
   return agreement(parameters, inputs, decisions);
 }
 
+// What every export of a model is quantised by.
+std::vector<RawState> calibration_of(const Model& model, const TaskConfig& task,
+                                     const EpisodePlayed& played) {
+  require_firmware_serves(task);
+  return calibration_play(model.parameters, task, 0, calibration_plays, played);
+}
+
 }  // namespace
 
 Export export_model(const Model& model, const TaskConfig& task, WeightType weights,
                     const EpisodePlayed& played) {
-  require_firmware_serves(task);
   const Parameters& parameters = model.parameters;
-  const std::vector<RawState> calibration = calibration_play(parameters, task, 0, calibration_plays, played);
+  const std::vector<RawState> calibration = calibration_of(model, task, played);
   const std::vector<RawState> validation =
       calibration_play(parameters, task, calibration_plays, validation_plays, played);
   Export exported;
@@ -54,6 +60,11 @@ Export export_model(const Model& model, const TaskConfig& task, WeightType weigh
   policy.actions = task.actions;
   policy.golden_vectors = golden_vectors(policy.network, task.inputs, validation);
   return exported;
+}
+
+IntegerNetwork integers_of(const Model& model, const TaskConfig& task, WeightType weights) {
+  const std::vector<RawState> calibration = calibration_of(model, task, [] {});
+  return quantise(model.parameters, task.inputs, calibration, weights).network;
 }
 
 std::string policy_name_of(const std::filesystem::path& file) {

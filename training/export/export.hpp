@@ -35,6 +35,10 @@ inline constexpr int export_episodes = export_calibration_episodes + 500;
     const Model& model, const TaskConfig& task, WeightType weights = WeightType::int16,
     const EpisodePlayed& played = [] {});
 
+// The integer network of that export alone, without comparisons: half a second. Throws as export_model.
+[[nodiscard]] IntegerNetwork integers_of(const Model& model, const TaskConfig& task,
+                                         WeightType weights = WeightType::int16);
+
 // The name of a policy whose header is written to `file`: its name without extension. Throws
 // std::runtime_error if that is no lower-case C++ identifier.
 [[nodiscard]] std::string policy_name_of(const std::filesystem::path& file);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
@@ -30,6 +31,7 @@ constexpr int exit_failed_runs = 1;
 
 struct Options {
   std::filesystem::path config;
+  std::vector<std::filesystem::path> compared;  // of `compare`, in place of one configuration
   std::vector<std::string> changes;
   int seeds = 10;
   int jobs = 0;
@@ -41,7 +43,8 @@ struct Options {
 struct ExperimentKind {
   const char* name;
   const char* says;
-  std::vector<Variant> (*variants)(const std::string& base_text, const std::string& base_name);
+  std::vector<Variant> (*variants)(const std::string& base_text,
+                                   const std::string& base_name);  // none of compare
   const char* table;  // the file that is written beside the summary; none if empty
   std::string (*table_of)(const std::vector<VariantSummary>& summaries);
 };
@@ -54,6 +57,7 @@ constexpr std::array kinds = {
     ExperimentKind{"readings", "what the paper leaves open, varied: which reading comes closest to its curve",
                    paper_readings, "readings.md", readings_table},
     ExperimentKind{"widths", "the RCS state with networks of several widths", network_widths, "", nullptr},
+    ExperimentKind{"compare", "trainings of your own, a configuration each", nullptr, "", nullptr},
 };
 
 struct Experiment {
@@ -62,6 +66,9 @@ struct Experiment {
 };
 
 Experiment make_experiment(const Options& options, const ExperimentKind& kind) {
+  if (kind.variants == nullptr) {
+    return {.variants = compared_variants(options.compared, options.changes), .runs = {}};
+  }
   const std::string text = options.config.empty() ? "" : host::read_file(options.config);
   const std::string name = options.config.empty() ? "paper.toml" : options.config.string();
   const std::string base = parse_config(text, name, options.changes).text;
@@ -130,6 +137,24 @@ void draw_figures(const std::filesystem::path& directory) {
   }
 }
 
+// What the figures need beside the tables.
+std::string experiment_json(const std::vector<VariantSummary>& summaries, double ceiling,
+                            const ExperimentKind& kind) {
+  nlohmann::ordered_json json = {{"experiment", kind.name},
+                                 {"seeds", summaries.front().runs},
+                                 {"ceiling", ceiling},
+                                 {"paper_best", nullptr}};
+  if (kind.variants != nullptr) {
+    json["paper_best"] = paper_best_reward;
+  }
+  for (const VariantSummary& summary : summaries) {
+    json["variants"].push_back({{"name", summary.variant->name},
+                                {"says", summary.variant->says},
+                                {"episodes", summary.variant->config.run.episodes}});
+  }
+  return json.dump(2) + "\n";
+}
+
 int report_all(const Experiment& experiment, const Options& options, const ExperimentKind& kind) {
   std::vector<std::vector<RunFigures>> runs(experiment.variants.size());
   std::size_t missing = 0;
@@ -149,6 +174,7 @@ int report_all(const Experiment& experiment, const Options& options, const Exper
   }
   const auto summaries = summarise_variants(experiment.variants, runs, options.ceiling);
   const std::string markdown = summary_markdown(summaries, options.ceiling);
+  host::write_file(options.out / "experiment.json", experiment_json(summaries, options.ceiling, kind));
   host::write_file(options.out / "summary.csv", summary_csv(summaries));
   host::write_file(options.out / "curves.csv", curves_csv(summaries));
   host::write_file(options.out / "summary.md", markdown);
@@ -181,7 +207,16 @@ int carry_out_experiment(Options options, const ExperimentKind& kind) {
   return report_all(experiment, options, kind);
 }
 
-void add_options(CLI::App& command, Options& options) {
+void add_options(CLI::App& command, Options& options, const ExperimentKind& kind) {
+  if (kind.variants == nullptr) {
+    striker::host::reads_file(command.add_option("CONFIG", options.compared,
+                                                 "TOML files as training/configs/paper.toml, two or more"))
+        ->required()
+        ->expected(2, 100);
+  } else {
+    command.add_option("--config", options.config,
+                       "the training that is varied; training/configs/paper.toml if not given");
+  }
   command.add_option("--seeds", options.seeds, "runs a variant, with seeds 1 to N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -189,9 +224,7 @@ void add_options(CLI::App& command, Options& options) {
       .add_option("--jobs", options.jobs,
                   "runs at a time; all cores, and under mpirun 1 a process, if not given")
       ->check(CLI::Range(1, 1024));
-  command.add_option("--config", options.config,
-                     "the training that is varied; training/configs/paper.toml if not given");
-  command.add_option("--set", options.changes, "changes a key of it: --set run.episodes=1000")
+  command.add_option("--set", options.changes, "changes a key of it, or of all: --set run.episodes=1000")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command
@@ -209,14 +242,14 @@ void add_options(CLI::App& command, Options& options) {
 int main(int argc, char** argv) {
   using namespace striker::training;
   CLI::App app(
-      "Trains each variant of the paper's experiment with several seeds, and writes every run's learning\n"
-      "curve, model and figures (DIR/runs), a summary with intervals (summary.csv, summary.md, curves.csv)\n"
+      "Trains each variant of the paper's experiment, or trainings of your own, with several seeds, and writes every run's learning\n"
+      "curve, model and figures (DIR/runs), a summary with intervals (summary.csv, summary.md, curves.csv, experiment.json)\n"
       "and figures (SVG and PNG). Complete runs are kept: the same command goes on where it was interrupted.\n"
       "Equal bytes with any number of jobs, and under mpirun, where each process takes its share of the runs.",
       "striker-experiment");
   Options options;
   for (const ExperimentKind& kind : kinds) {
-    add_options(*app.add_subcommand(kind.name, kind.says), options);
+    add_options(*app.add_subcommand(kind.name, kind.says), options, kind);
   }
   app.require_subcommand(1);
   return striker::host::run(app, argc, argv, [&] {

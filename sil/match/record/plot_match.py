@@ -15,11 +15,10 @@ import os
 
 import matplotlib.pyplot as plt
 from matplotlib.colors import LogNorm
-from matplotlib.patches import Circle, Rectangle
+from striker_field import draw_field
 from striker_pictures import TEAMS, PlotError, parser_of, run, save
 
 PROGRAM = "striker-plot-match"
-HALF_LENGTH_M, HALF_WIDTH_M = 3.9, 2.325
 EVENTS = {"goal": "goal", "ball_out": "ball out", "crowding": "crowding", "deadlock": "deadlock",
           "sent_out": "sent out", "sent_home": "sent home", "returned": "returned"}
 
@@ -43,22 +42,6 @@ def frames_of(stream):
     return {"frame": [int(row["frame"]) for row in rows],
             "active": {name: [row[name] == "True" for row in rows] for name in rows[0] if "_active" in name},
             **{name: [float(row[name]) for row in rows] for name in columns}}
-
-
-def draw_field(axes):
-    style = {"fill": False, "edgecolor": "0.3", "linewidth": 0.8}
-    axes.add_patch(Rectangle((-HALF_LENGTH_M, -HALF_WIDTH_M), 2 * HALF_LENGTH_M, 2 * HALF_WIDTH_M, **style))
-    axes.add_patch(Circle((0, 0), 0.5, **style))
-    axes.plot([0, 0], [-HALF_WIDTH_M, HALF_WIDTH_M], color="0.3", linewidth=0.8)
-    for side in (-1, 1):
-        for depth, half_width in ((-0.9, 0.9), (-0.4, 0.65), (0.45, 0.5)):
-            corner = min(side * HALF_LENGTH_M, side * (HALF_LENGTH_M + depth))
-            axes.add_patch(Rectangle((corner, -half_width), abs(depth), 2 * half_width, **style))
-    axes.set_xlim(-4.5, 4.5)
-    axes.set_ylim(-2.5, 2.5)
-    axes.set_aspect("equal")
-    axes.set_xlabel("x, m")
-    axes.set_ylabel("y, m")
 
 
 def positions(frames, report, directory, command):

@@ -15,23 +15,20 @@ Places are the camera's pictures. The same log gives the same bytes.
 import math
 
 import matplotlib.pyplot as plt
+from striker_field import ball_patch, robot_patch
 from striker_logs import LogError, kicks_of, rewards_of
 from striker_pictures import BLUE, GREEN, GREY, ORANGE, VERMILION, PlotError, parser_of, run, save
 
 PROGRAM = "striker-plot-kick"
 MOST_PANELS = 12
-ROBOT_SIDE_M, BALL_RADIUS_M = 0.15, 0.05
 
 
 def draw_paths(axes, kick):
     axes.plot([x for _, x, _, _ in kick.robot], [y for _, _, y, _ in kick.robot], color=BLUE, label="robot")
     axes.plot([x for _, x, _ in kick.ball], [y for _, _, y in kick.ball], color=ORANGE, label="ball")
     _, x_m, y_m, heading_rad = kick.robot[0]
-    corners = [(x_m + ROBOT_SIDE_M / math.sqrt(2) * math.cos(heading_rad + angle),
-                y_m + ROBOT_SIDE_M / math.sqrt(2) * math.sin(heading_rad + angle))
-               for angle in (math.pi / 4 + turn * math.pi / 2 for turn in range(4))]
-    axes.add_patch(plt.Polygon(corners, fill=False, edgecolor=BLUE))
-    axes.add_patch(plt.Circle(kick.ball[0][1:], BALL_RADIUS_M, fill=False, edgecolor=ORANGE))
+    axes.add_patch(robot_patch(x_m, y_m, heading_rad, fill=False, edgecolor=BLUE))
+    axes.add_patch(ball_patch(*kick.ball[0][1:], fill=False, edgecolor=ORANGE))
     axes.set_aspect("equal", adjustable="datalim")
 
 

@@ -3,6 +3,8 @@
 // moment; moving a slider writes it.
 "use strict";
 
+const runs = JSON.parse(document.getElementById("data").textContent);
+
 // The place of the last entry that is not later.
 function placeOf(times, time) {
   let low = 0;
@@ -26,6 +28,7 @@ class Replay {
     this.canvas = element("canvas", undefined, parent);
     this.canvas.width = 1200;
     this.canvas.height = 660;
+    this.canvas.className = "field";
     this.slider = element("input", undefined, parent);
     this.slider.type = "range";
     this.slider.setAttribute("aria-label", "time");
@@ -33,6 +36,8 @@ class Replay {
     this.state = element("div", undefined, parent);
     this.state.className = "state";
     this.state.id = `state${number}`;
+    this.plots = element("div", undefined, parent);
+    this.charts = [];
     this.marks = element("ul", undefined, element("div", undefined, parent));
     this.marks.parentElement.className = "scroll";
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value), true));
@@ -51,6 +56,9 @@ class Replay {
       mark.dataset.time = time;
       mark.addEventListener("click", () => this.showTime(time));
     }
+    this.plots.replaceChildren();
+    this.charts = chartsOf(this.replay).map((chart) =>
+      new Chart(chart, this.plots, (time_s) => this.showTime(Math.round(1000 * time_s))));
     this.show(0, false);
   }
 
@@ -63,6 +71,7 @@ class Replay {
     this.slider.value = place;
     this.draw();
     this.describe();
+    this.charts.forEach((chart) => chart.draw(this.replay.times[place] / 1000));
     if (isNamed) {
       const time = this.replay.times[place];
       history.replaceState(null, "", `#run=${this.number}&replay=${this.which}&time=${time}`);
@@ -82,7 +91,11 @@ class Replay {
   describe() {
     const { replay, place } = this;
     const ball = replay.ball[place];
-    const lines = [`${replay.name}: ${(replay.times[place] / 1000).toFixed(3)} s`, replay.notes[place]];
+    const lines = [`${replay.name}: ${(replay.times[place] / 1000).toFixed(3)} s`, whereInLog(replay, place)];
+    const decision = replay.decisions[place];
+    if (decision) {
+      lines.push(`action ${decision[0]}, Q ${decision[1].toFixed(2)}, next best ${decision[2].toFixed(2)}`);
+    }
     lines.push(ball ? `ball (${ball[0]}, ${ball[1]}) mm` : "ball not seen");
     replay.robots.forEach((path, robot) => {
       const pose = path[place];
@@ -114,6 +127,27 @@ class Replay {
   }
 }
 
+// Where the log tells what is shown.
+function whereInLog({ log, lines, times }, place) {
+  if (lines.length > 0) {
+    return `${log} line ${lines[place]}`;
+  }
+  return `${log} at (${(times[place] / 1000).toFixed(6).padStart(17, "0")})`;
+}
+
+// What a replay plots over its time, as charts; Q where there are decisions.
+function chartsOf({ times, plots, decisions }) {
+  const x = times.map((time) => time / 1000);
+  const charts = plots.map(({ y, series }) =>
+    ({ x: "time, s", y, series: series.map(({ name, values, dashed }) => ({ name, x, y: values, dashed })) }));
+  const at = decisions.map((decision, place) => (decision ? place : -1)).filter((place) => place >= 0);
+  if (at.length > 0) {
+    charts.push({ x: "time, s", y: "Q, units of reward", series: ["Q of the action", "Q of the next best"].map((name, which) =>
+      ({ name, x: at.map((place) => x[place]), y: at.map((place) => decisions[place][which + 1]), dashed: which === 1 })) });
+  }
+  return charts;
+}
+
 function addTable(table, view, parent) {
   element("h3", table.name, parent);
   const box = element("div", undefined, parent);
@@ -142,6 +176,10 @@ const views = runs.map((run, number) => {
   facts.className = "facts";
   run.facts.forEach(([name, value]) => element("li", `${name}: ${value}`, facts));
   const view = run.replays.length > 0 ? new Replay(run, number, section) : undefined;
+  run.charts.forEach((chart) => {
+    element("h3", chart.name, section);
+    new Chart(chart, section);
+  });
   run.tables.forEach((table) => addTable(table, view, section));
   return view;
 });
@@ -159,4 +197,4 @@ function openMoment() {
 addEventListener("hashchange", openMoment);
 openMoment();
 document.getElementById("summary").textContent =
-  `${runs.length} runs. Move a slider, or click an event or an episode; the address keeps the moment.`;
+  `${runs.length} runs. Move a slider, or click a plot, an event or an episode; the address keeps the moment.`;

@@ -10,6 +10,10 @@ Each RUN is a directory that a program of Striker wrote:
   of a match    match.json, events.jsonl and bus/: the field with ten robots, events to jump to, and what they did
   of a league   league.json: table and pairings with their intervals
   of a campaign runs.jsonl of 'striker-sil campaign': outcomes by fault, and every violated invariant
+  of faults     faults.json of 'striker-sil faults --json': the table, every violation, and runs that crashed
+  of tools/pil  out/pil/BOARD: the board's kicks as kicks, beside those in one process
+  of a training learning_curve.csv and evaluations.csv of striker-train
+  of an experiment  experiment.json and tables of striker-experiment
 
 The same runs give the same bytes.
 """
@@ -21,9 +25,26 @@ import subprocess
 import sys
 
 from striker_logs import LogError
-from striker_runs import read_run
+import striker_runs
+import striker_trainings
 
 HERE = os.path.dirname(os.path.realpath(__file__))
+
+# A directory's kind is told by the first of these files that it has.
+KNOWN = {"match.json": striker_runs.match, "pil.json": striker_runs.pil, "kick.json": striker_runs.kicks,
+         "league.json": striker_runs.league, "runs.jsonl": striker_runs.campaign, "faults.json": striker_runs.faults,
+         "experiment.json": striker_trainings.experiment, "learning_curve.csv": striker_trainings.training}
+
+
+def read_run(directory):
+    for name, read in KNOWN.items():
+        if os.path.exists(os.path.join(directory, name)):
+            try:
+                return read(directory)
+            except (KeyError, TypeError, ValueError) as error:
+                raise LogError(f"{os.path.join(directory, name)}: is not what its program writes ({error!r}); make the run again"
+                               ) from error
+    raise LogError(f"{directory}: is no run; give a directory with one of {', '.join(KNOWN)}")
 
 
 def text_of(name):
@@ -32,10 +53,10 @@ def text_of(name):
 
 
 def page_of(runs):
-    page, field, script = map(text_of, ("striker_report.html", "striker_field.js", "striker_report.js"))
+    page, *scripts = map(text_of, ("striker_report.html", "striker_field.js", "striker_charts.js", "striker_report.js"))
     # "</" would end the script's element, whatever stands around it.
     data = json.dumps(runs, separators=(",", ":")).replace("</", "<\\/")
-    return page.replace("/*SCRIPT*/", f"const runs = {data};\n{field}\n{script}")
+    return page.replace("/*SCRIPT*/", "\n".join(scripts)).replace("/*DATA*/", data)
 
 
 def write_whole(file, text):
