@@ -126,7 +126,7 @@ class Report(unittest.TestCase):
         shown = seen_by_browser(page, "run=1&replay=1&time=500", os.path.join(self.folder, "profile"))
         for text in ("SYNC lost", "sync_lost", "step_instructions: 4242", "the same frames, byte for byte", "pil.log line ",
                      "training of 260 episodes", "held-out episodes", "experiment, compare", "<td>wider</td>", "<td>never</td>"):
-            self.assertIn(text, shown)
+            self.assertTrue(text in shown, text)
         self.assertEqual(shown.count("<canvas"), 1 + 3 + 4 + 1)
         with open(os.path.join(board, "pil.log"), "a", encoding="ascii") as log:
             log.write("(9999.000000) vcan0 7F0#\n")
@@ -134,7 +134,7 @@ class Report(unittest.TestCase):
             last = sum(1 for _ in log)
         self.assertEqual(run("striker-report", board, "-o", page).returncode, 0)
         with open(page, encoding="utf-8") as file:
-            self.assertIn(f"differ from line {last} on", file.read())
+            self.assertEqual(file.read().count(f"differ from line {last} on"), 1)
 
     def test_a_moment_of_a_match_is_what_ten_buses_said(self):
         state = self.seen("run=1&time=2500").split('id="state1">')[1].split("</div>")[0]

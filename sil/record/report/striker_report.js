@@ -198,3 +198,5 @@ addEventListener("hashchange", openMoment);
 openMoment();
 document.getElementById("summary").textContent =
   `${runs.length} runs. Move a slider, or click a plot, an event or an episode; the address keeps the moment.`;
+// For `chromium --headless --dump-dom`: from the page's beginning to here.
+document.documentElement.dataset.openedAfterMs = Math.round(performance.now());
