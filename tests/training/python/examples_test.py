@@ -36,6 +36,18 @@ class Examples(PackageCase):
     def test_a_reward_of_ones_own(self):
         self.assertIn("100 worlds", self.run_example("custom_reward.py"))
 
+    def test_stable_baselines(self):
+        """Where it is installed; else the example says what is missing."""
+        example, model = os.path.join(EXAMPLES, "train_sb3.py"), self.path("sb3.safetensors")
+        result = subprocess.run([sys.executable, example, "-o", model, "--steps", "3000", "--episodes", "10"],
+                                capture_output=True, text=True, check=False,
+                                env={**os.environ, "PYTHONPATH": os.environ["STRIKER_PACKAGE"] + ":" +
+                                     os.environ.get("PYTHONPATH", "")})
+        if result.returncode != 0:
+            self.assertRegex(result.stderr, "^train_sb3.py: No module named .*train_dqn.py\n$")
+            return
+        self.must_run("striker-evaluate", "--model", model, "--episodes", 5, "--seed", 1)
+
     def test_speed(self):
         said = self.run_example("speed.py", "--share", "0.002")
         self.assertRegex(said, "KickEnv .* steps/s\nVectorKickEnv,   64 .*\nVectorKickEnv, 1024 .*\n.*times one\nMatchEnv .*real time")

@@ -16,7 +16,6 @@ except ImportError:
 AGENTS = ("goalkeeper", "defender_1", "defender_2", "forward_1", "forward_2")
 STATES = ("open_play", "kickoff", "goal_kick", "corner", "penalty", "pause", "over")
 FRAME_S = 0.05
-TOP_SPEEDS = numpy.array(_native.TOP_SPEEDS_M_S)[:, None]  # m/s at the rim, a row a robot
 
 MatchRecord = collections.namedtuple("MatchRecord", (
     "own", "opponents", "ball", "clock_s", "half", "score", "opponent_score", "scored", "conceded", "state",
@@ -122,7 +121,7 @@ class MatchEnv(ParallelEnv):
             if given.dtype.kind not in "fiu" or given.shape != (2,) or not numpy.isfinite(given).all():
                 raise ValueError(f"actions[{agent!r}] {checks.shown(actions[agent])}: two finite speeds in m/s")
             row[:] = given
-        return speeds.clip(-TOP_SPEEDS, TOP_SPEEDS)
+        return speeds
 
     def __getstate__(self):
         raise TypeError("a MatchEnv cannot be pickled or copied: make one in each process")
