@@ -197,7 +197,8 @@ class Browser:
             if value:
                 return value
             time.sleep(0.03)
-        raise AssertionError(f"never true: {script}")
+        shown = self.value("document.body.innerText.slice(0, 1500)")
+        raise AssertionError(f"never true: {script}; the page says: {shown}; {self.problems()}")
 
     def click(self, selector):
         """With a mouse, in the middle of what the selector names."""

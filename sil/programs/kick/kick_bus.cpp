@@ -37,7 +37,8 @@ KickBus open_bus(const KickOptions& options) {
                                        .vision_phase_ns = std::llround(options.vision_phase_us * 1e3)});
   }
   if (options.view.port) {
-    bus.live = std::make_unique<LiveFaults>(bus.sound(), bus.in_process.get(), options.in_process(), options.seed);
+    bus.live =
+        std::make_unique<LiveFaults>(bus.sound(), bus.in_process.get(), options.in_process(), options.seed);
   }
   return bus;
 }

@@ -12,6 +12,7 @@ let trails = { ball: [], robots: [] };
 let marks = [];      // where the ball was touched
 let samples = [];    // wheels of the chosen robot, by tick
 let earlier = [];    // states' ticks and counts of a second, for rates
+let isDrawing = false;  // a browser that draws slowly leaves states out, and still reads them all
 
 const socket = new WebSocket(`ws://${location.host}/live${location.search}`);
 
@@ -71,7 +72,10 @@ function take(next) {
     forget();
   }
   remember();
-  draw();
+  if (!isDrawing) {
+    isDrawing = true;
+    requestAnimationFrame(draw);
+  }
 }
 
 function chooseFrom(count) {
@@ -111,6 +115,7 @@ function remember() {
 }
 
 function draw() {
+  isDrawing = false;
   drawScene();
   showGame();
   showFacts();

@@ -28,9 +28,9 @@ using Error = boost::system::error_code;
 
 constexpr std::chrono::milliseconds state_period{33};
 constexpr std::chrono::milliseconds accept_pause{100};
-constexpr std::chrono::milliseconds most_good_bye{500};
+constexpr std::chrono::milliseconds most_good_bye{1000};
 constexpr std::chrono::milliseconds good_bye_step{10};
-constexpr int niceness = 10;  // where processors are short, the run goes first
+constexpr int niceness = 5;  // where processors are short, the run goes first
 
 asio::ip::address address_of(const std::string& text) {
   Error error;

@@ -38,7 +38,7 @@ class ViewServer {
   // For a browser, with the token.
   [[nodiscard]] const std::string& url() const;
 
-  // Shows the last state, tells why the run ended, and ends the thread: within half a second, whatever clients do.
+  // Shows the last state, tells why the run ended, and ends the thread: within a second, whatever clients do.
   void finish(const std::string& why);
 
  private:
