@@ -106,9 +106,12 @@ std::uint32_t finish(Stage stage, SmallRandom& random) {
   if ((kind & 2U) != 0) {
     frames.add(stage.operators.command(can::Mode::arm));  // makes a challenge, though it is armed
   }
-  // On the smallest core a mode command costs more than a pose.
+  // On the smallest core a mode command costs more than a pose, and most of all one that confirms, be it for a challenge that
+  // nobody sent.
+  const std::int32_t challenge = (kind & 8U) != 0 ? 1 : 0;
+  const can::Mode mode = challenge != 0 ? can::Mode::clear : can::Mode::arm;
   while ((kind & 4U) != 0 && frames.count + 1 < frames.all.size()) {
-    frames.add(stage.operators.command(can::Mode::arm));
+    frames.add(stage.operators.command(mode, challenge));
   }
   // Each is older than the one before it, which the receiver has to tell from a silence.
   for (std::uint8_t age_ms = 0; frames.count < frames.all.size(); ++age_ms) {

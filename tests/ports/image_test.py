@@ -39,8 +39,8 @@ def image(build_dir, name):
 
 
 def inference_limit(board, macs, policy):
-    """limits.json's for the board's processor, or in proportion for another network: of an inference, of a step. Those of
-    the paper's network's step are what tools/step-bound proves of it."""
+    """limits.json's for the board's processor, or in proportion for another network: of an inference, of a step. The step's
+    is 1 % above what tools/step-bound proves of the paper's network."""
     with open(os.path.join(HERE, "limits.json"), encoding="utf-8") as text:
         limits = json.load(text)[board["cpu"]]
     with open(policy, encoding="utf-8") as text:

@@ -19,6 +19,10 @@ from step_bound.functions import plain_name  # noqa: E402
 from trace_checker import Checker, Contradiction, Walker  # noqa: E402
 
 GREATEST_RATIO = 1.05  # proved / longest found: firmware/policy/README.md has each core's
+# Facts whose number no step here meets: what never happens has none, a loop's head counts once more than its body, and quotients are
+# shorter, silences and checks of weights fewer than they may be.
+MAY_BE_LOOSE = {"time-goes-on", "frames-of-a-tick", "bytes-of-a-frame", "bytes-of-the-consent", "silences", "weights-slice", "short-quotients",
+                "speeds-of-the-ball", "division-without-an-instruction", "signed-division-without-an-instruction"}
 
 
 def follow(board, image, found, bound, words):
@@ -77,14 +81,16 @@ def main():
         print(f"ok: {checker.count} steps of {words[0]} without a contradiction, the longest {checker.longest:,} instructions")
         longest = max(longest, checker.longest)
         attained |= checker.attained
-    reached = sorted(fact.name for fact in bound.facts if fact.name in attained)
-    print(f"{len(reached)} facts were met to their number, which one less would contradict: {', '.join(reached)}")
-    print("not met: " + ", ".join(sorted(fact.name for fact in bound.facts if fact.name in bound.used_facts - attained)))
+    loose = bound.used_facts - attained
+    print(f"{len(attained)} facts were met to their number: one less would be a contradiction; not met: {', '.join(sorted(loose))}")
     if arguments.compare:
         compare(found, bound, checker)
     ratio = bound.total / longest
+    good = ratio <= GREATEST_RATIO and loose <= MAY_BE_LOOSE
+    if loose - MAY_BE_LOOSE:
+        print(f"FAILED: no step met {', '.join(sorted(loose - MAY_BE_LOOSE))}: a smaller number would not be noticed")
     print(f"{'ok' if ratio <= GREATEST_RATIO else 'FAILED'}: proved {bound.total:,}, longest {longest:,}, ratio {ratio:.3f}")
-    sys.exit(0 if ratio <= GREATEST_RATIO else 1)
+    sys.exit(0 if good else 1)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,8 @@ def registers_bytes(names):
 def execute(state, insn):
     """False if it is not known."""
     name = insn.operation
-    if not (INTERLEAVED.match(name) or KNOWN.match(name)):
+    unpredicated = re.sub(r"[te](?=\.)", "", name, count=1)  # in a VPT block: it may do as much, or less
+    if not (INTERLEAVED.match(name) or KNOWN.match(name) or KNOWN.match(unpredicated)):
         return False
     operands = insn.operands
     lists = [operand for operand in operands if isinstance(operand, RegisterList)]
