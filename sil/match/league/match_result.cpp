@@ -43,9 +43,9 @@ T value_at(const Json& report, const std::string& pointer, std::string_view sour
 
 // Nothing that JSON would turn into one: no 9.7, no true.
 int count_at(const Json& report, const std::string& pointer, std::string_view source) {
-  constexpr std::uint64_t most = 1'000'000;  // more than frames in a match
+  constexpr std::int64_t most = 1'000'000;  // more than frames in a match
   const Json& value = value_at(report, pointer, source);
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+  if (!value.is_number_integer() || value.get<std::int64_t>() < 0 || value.get<std::int64_t>() > most) {
     fail(source, pointer, value);
   }
   return value.get<int>();
