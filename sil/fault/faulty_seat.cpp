@@ -11,6 +11,7 @@
 #include "sil/fault/link/foreign_frames.hpp"
 #include "sil/fault/link/second_controller.hpp"
 #include "sil/fault/memory/node_faults.hpp"
+#include "sil/fault/memory/weight_flips.hpp"
 #include "sil/fault/sensor/camera_faults.hpp"
 #include "sil/fault/sensor/drive_faults.hpp"
 #include "sil/fault/sensor/plant_faults.hpp"
@@ -91,7 +92,12 @@ ControllerLink& FaultySeat::add_link_faults(const std::vector<TimedFault>& fault
     outages.push_back({.from = fault.from, .until = fault.until});
     reboots_.push_back(fault.until);
   }
-  links_.push_back(std::make_unique<FaultyLink>(parts_.link, std::move(outages),
+  ControllerLink* controller = &parts_.link;
+  for (const TimedFault& fault : of_kind(faults, FaultKind::weight_flips)) {
+    links_.push_back(std::make_unique<WeightFlips>(*controller, fault, random_of(fault, seed)));
+    controller = links_.back().get();
+  }
+  links_.push_back(std::make_unique<FaultyLink>(*controller, std::move(outages),
                                                 [controller = parts_.controller] { *controller = {}; }));
   at_controller_ = std::make_unique<LinkTap>(*links_.back());
   ControllerLink* outermost = at_controller_.get();

@@ -8,35 +8,14 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
+
+#include "firmware/host/temporary_directory.hpp"
 
 namespace striker::sil {
 
 namespace {
-
-// Gone with its content when it goes.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "striker-policy.XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error(fmt::format("{}: no directory can be made there", name));
-    }
-    path_ = name;
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Its exit status, without its standard output.
 int run(const std::array<std::string, 5>& words) {
@@ -65,8 +44,8 @@ LoadedPolicy load_policy(const std::filesystem::path& file) {
   if (file.extension() == ".hpp") {
     return read_policy_header(file);
   }
-  const TemporaryDirectory directory;
-  const std::filesystem::path header = directory.file("policy.hpp");
+  const host::TemporaryDirectory directory;
+  const std::filesystem::path header = directory.path() / "policy.hpp";
   const auto exporter = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "striker-export";
   if (run({exporter.string(), "--output", header.string(), "--", file.string()}) != 0) {
     throw std::runtime_error(fmt::format("{}: striker-export made no header of it", file.string()));

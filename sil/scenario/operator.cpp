@@ -46,6 +46,7 @@ void Operator::hear(std::span<const can::Frame> frames) {
     has_heard_ = true;
     decisions_ += can::is<can::Decision>(frame) ? 1 : 0;
     if (can::is<can::Status>(frame) && can::receive(frame, status) == can::Verdict::accepted) {
+      ++statuses_;
       state_ = static_cast<core::State>(status.state);
       has_team_ = static_cast<core::OrderState>(status.orders) != core::OrderState::none;
       fault_ = static_cast<core::Fault>(status.fault);

@@ -28,8 +28,9 @@ class Operator {
   // The answer to the controller's challenge, once, if it was for what this operator had asked for.
   [[nodiscard]] std::optional<can::Frame> confirmation();
 
-  // Whether the controller has said anything yet, and how often it has decided.
+  // Whether the controller has said anything yet, how often it has told its status, and how often it has decided.
   [[nodiscard]] bool has_heard() const { return has_heard_; }
+  [[nodiscard]] std::uint64_t statuses() const { return statuses_; }
   [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
 
   // By its last status and safety report.
@@ -47,6 +48,7 @@ class Operator {
 
   can::SendCounter mode_counter_;
   bool has_heard_ = false;
+  std::uint64_t statuses_ = 0;
   std::uint64_t decisions_ = 0;
   std::optional<can::Mode> asked_;
   std::int32_t challenge_ = 0;  // to be confirmed; 0: none

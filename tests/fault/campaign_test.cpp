@@ -2,6 +2,8 @@
 #include "sil/scenario/campaign.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -70,8 +72,83 @@ TEST_F(Campaign, ItsFileKeepsWholeLinesSorted) {
   file.append(5, "{\"run\":5}");
   file.append(2, "{\"run\":2}");
   file.finish();
-  EXPECT_EQ(host::read_file(at("runs.jsonl")), "{\"a\":1}\n{\"run\":2}\n{\"run\":5}\n");
-  EXPECT_EQ(RunFile(at("runs.jsonl"), "{\"a\":1}").runs().size(), 2U);
+  // The digests: FNV-1a of "{"a":1}\n{"run":2}" and of "{"a":1}\n{"run":5}", by another program.
+  EXPECT_EQ(host::read_file(at("runs.jsonl")),
+            "{\"a\":1}\n{\"run\":2,\"digest\":\"862cd084cc5deba4\"}\n"
+            "{\"run\":5,\"digest\":\"862fd084cc60217b\"}\n");
+  const RunFile again(at("runs.jsonl"), "{\"a\":1}");
+  EXPECT_EQ(again.runs(), (std::map<std::uint64_t, std::string>{{2, "{\"run\":2}"}, {5, "{\"run\":5}"}}));
+}
+
+// Each byte of each line but the first: that one says what the file is of.
+TEST_F(Campaign, EveryEditOfALineIsToldWithItsNumber) {
+  std::filesystem::create_directories(at(""));
+  const std::string header = R"({"a":1})";
+  {
+    RunFile file(at("runs.jsonl"), header);
+    file.append(0, R"({"run":0,"reward":1.5})");
+    file.append(1, R"({"run":1,"reward":-4})");
+  }
+  const std::string sound = host::read_file(at("runs.jsonl"));
+  const std::size_t second = sound.find('\n') + 1;
+  const std::size_t third = sound.find('\n', second) + 1;
+  for (std::size_t at_byte = second; at_byte < sound.size(); ++at_byte) {
+    if (sound[at_byte] == '\n') {
+      continue;
+    }
+    std::string edited = sound;
+    edited[at_byte] = edited[at_byte] == '3' ? '4' : '3';
+    host::write_file(at("runs.jsonl"), edited);
+    try {
+      const RunFile file(at("runs.jsonl"), header);
+      FAIL() << edited;
+    } catch (const std::runtime_error& error) {
+      const std::string place = at_byte < third ? "runs.jsonl: line 2: " : "runs.jsonl: line 3: ";
+      EXPECT_NE(std::string(error.what()).find(place), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(Campaign, ALineOfAnotherFileOrTwoThatDisagreeAreTold) {
+  std::filesystem::create_directories(at(""));
+  {
+    RunFile(at("other.jsonl"), R"({"a":2})").append(0, R"({"run":0})");
+    RunFile file(at("runs.jsonl"), R"({"a":1})");
+    file.append(0, R"({"run":0,"reward":1})");
+    file.append(0, R"({"run":0,"reward":1})");  // the same, once more: two processes of an mpirun may
+    file.finish();
+    EXPECT_EQ(file.runs().size(), 1U);
+    file.append(0, R"({"run":0,"reward":2})");
+  }
+  EXPECT_THROW(RunFile(at("runs.jsonl"), R"({"a":1})"), std::runtime_error);
+  const std::string other = host::read_file(at("other.jsonl"));
+  host::write_file(at("runs.jsonl"), "{\"a\":1}" + other.substr(other.find('\n')));
+  EXPECT_THROW(RunFile(at("runs.jsonl"), R"({"a":1})"), std::runtime_error);
+}
+
+// The lock is a process's: another one is needed to see it.
+TEST_F(Campaign, TheFileOfAProcessThatRunsIsRefused) {
+  std::filesystem::create_directories(at(""));
+  const auto taken_by_another = [&] {
+    const pid_t child = fork();
+    if (child == 0) {
+      try {
+        const RunFile file(at("runs.jsonl"), R"({"a":1})");
+        _exit(0);
+      } catch (const std::runtime_error& error) {
+        _exit(std::string(error.what()).find(std::to_string(getppid())) != std::string::npos ? 1 : 2);
+      }
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WEXITSTATUS(status);
+  };
+  {
+    const RunFile file(at("runs.jsonl"), R"({"a":1})");
+    EXPECT_EQ(taken_by_another(), 1);
+  }
+  EXPECT_EQ(taken_by_another(), 0);
+  EXPECT_FALSE(std::filesystem::exists(at("runs.jsonl.lock")));
 }
 
 TEST(WorkerPool, EveryTaskIsDoneOnceAndACrashCostsItselfAlone) {

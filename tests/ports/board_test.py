@@ -132,6 +132,23 @@ class Board(unittest.TestCase):
                 board.write(text)
             self.assert_refused([f"STRIKER_BOARD_DIR={self.folder}"], path, told)
 
+    def test_a_board_may_say_what_it_is_in_a_file_that_it_includes(self):
+        self.write()
+        os.makedirs(os.path.join(self.folder, "sub"))
+        path = os.path.join(self.folder, "board.cmake")
+        os.rename(path, os.path.join(self.folder, "sub", "common.cmake"))
+        with open(path, "w", encoding="utf-8") as board:
+            board.write("include(${CMAKE_CURRENT_LIST_DIR}/sub/common.cmake)\n")
+        done = self.configure(f"STRIKER_BOARD_DIR={self.folder}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_folder_that_cmake_would_take_for_a_list_is_told(self):
+        folder = os.path.join(os.path.dirname(self.folder), "my;board")
+        os.makedirs(folder)
+        with open(os.path.join(folder, "board.cmake"), "w", encoding="utf-8"):
+            pass
+        self.assert_refused([f"STRIKER_BOARD_DIR={folder}"], f"'{folder}' has a ';' in it", "a path without one")
+
     def test_a_wrong_field_is_named_with_its_file(self):
         for changes, told in (
             *(({field: None}, f"{field} is missing") for field in FIELDS if field != "DEFINITIONS"),

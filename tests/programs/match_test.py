@@ -6,6 +6,7 @@ Usage: match_test.py BIN"""
 import gzip
 import json
 import os
+import re
 import shutil
 import signal
 import socket
@@ -74,6 +75,62 @@ class Match(files_case.FilesCase):
         result = sil("replay", self.file("a"))
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("frame 61, robot 6", result.stdout)
+
+    def test_a_replay_finds_every_record_that_is_another(self):
+        self.match("a", "--red", "rules", "--blue", "random", half_s="2")
+
+        def changed(name, change, status=1, *words):
+            path = os.path.join(self.file("a"), name)
+            sound = content(path)
+            with open(path, "wb") as stream:
+                stream.write(change(sound))
+            try:
+                result = sil("replay", self.file("a"))
+                self.assertEqual(result.returncode, status, (name, result.stdout, result.stderr))
+                for word in (os.path.basename(name), *words):
+                    self.assertIn(word, result.stdout + result.stderr)
+            finally:
+                with open(path, "wb") as stream:
+                    stream.write(sound)
+
+        def packed(change):
+            return lambda sound: gzip.compress(change(gzip.decompress(sound)))
+
+        def without_50_lines(text):
+            return b"\n".join(text.split(b"\n")[:-50])
+
+        def other_digit(text):
+            at = text.rindex(b"1")
+            return text[:at] + b"2" + text[at + 1:]
+
+        for name in ("frames.csv", "events.jsonl"):
+            changed(name, other_digit, 1, "line")
+            changed(name, without_50_lines if name == "frames.csv" else (lambda text: text[:-20]))
+            changed(name, lambda text: text + b"\n")
+        changed("match.log.gz", packed(lambda text: text[:-1] + b"?"))
+        changed("match.log.gz", lambda packed_text: packed_text + b"behind")
+        changed("match.log.gz", lambda packed_text: packed_text[:-100])
+        changed("match.json", lambda text: text.replace(b'"seed": 1,', b'"seed": 1.0,'))
+        changed("match.json", lambda text: text.replace(b'"seed": 1,', b'"seed": 1,\n "seed": 1,'))
+        bus = os.path.join("bus", "vcan3.log.gz")
+        for change in (lambda text: text.replace(b"\n", b"\0evil\n", 1), lambda text: text + b"\n", lambda text: text[:-1]):
+            path = os.path.join(self.file("a"), bus)
+            sound = content(path)
+            with open(path, "wb") as stream:
+                stream.write(gzip.compress(change(gzip.decompress(sound))))
+            result = sil("replay", self.file("a"))
+            self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+            self.assertIn("robot 3", result.stdout)
+            with open(path, "wb") as stream:
+                stream.write(sound)
+        changed(bus, lambda packed_text: packed_text + b"garbage", 2, "behind its end")
+        for name in ("frames.csv", "events.jsonl", "match.log.gz"):
+            os.rename(os.path.join(self.file("a"), name), self.file("away"))
+            result = sil("replay", self.file("a"))
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn(f"{name}: is not there", result.stdout)
+            os.rename(self.file("away"), os.path.join(self.file("a"), name))
+        self.assertEqual(sil("replay", self.file("a")).returncode, 0)
 
     def test_an_interrupted_match_is_kept_and_replays(self):
         process = subprocess.Popen([os.path.join(BIN, "striker-sil"), "match", "--half-s", "3000", "-o", self.file("a")],
@@ -154,7 +211,15 @@ until_ms = 6000
     def test_a_player_that_never_comes_costs_its_team_alone(self):
         result = self.match("a", "--red", "rules", "--blue", "tcp:45731", "--answer-timeout", "1", half_s="2")
         self.assertIn("45731", result.stderr)
-        self.assertTrue(self.report("a")["complete"])
+        report = self.report("a")
+        self.assertTrue(report["complete"])
+        asked = report["blue"]["orders"]["asked_frames"]
+        self.assertGreater(asked, 20)
+        self.assertEqual(report["blue"]["orders"]["unanswered_frames"], asked)
+        self.assertEqual(report["red"]["orders"]["unanswered_frames"], 0)
+        self.assertIn("tcp:45731 is gone in frame", result.stderr)
+        self.assertIn(f"tcp:45731 gave no answer in {asked} of {asked} frames", result.stderr)
+        self.assertEqual(sil("replay", self.file("a")).returncode, 0)
 
     def test_wrong_use_is_refused_in_words(self):
         for arguments, word in ((["--red", "nobody"], "rules-published"), (["--red", "tcp:0"], "port"), (["--half-s", "0"], "--half-s"),
@@ -200,6 +265,39 @@ class League(files_case.FilesCase):
             stream.writelines(lines[:2] + [lines[3], lines[4][:50]])
         self.assertEqual(self.league("cut").returncode, 0)
         self.assertEqual(self.tables("whole"), self.tables("cut"))
+
+    def test_an_edited_match_is_told_with_file_and_line(self):
+        self.assertEqual(self.league("a").returncode, 0)
+        path = os.path.join(self.file("a"), "matches.jsonl")
+        sound = content(path)
+        for edit, line in ((lambda text: re.sub(rb'"score":\[\d+,\d+\]', b'"score":[-9,0]', text, count=1), 2),
+                           (lambda text: re.sub(rb'"score":\[\d+,\d+\]', b'"score":[9,0]', text, count=1), 2),
+                           (lambda text: text[:text.rindex(b'"state_hash":"')] + text[text.rindex(b'"state_hash":"'):].replace(
+                               b'"state_hash":"', b'"state_hash":"Z', 1), 5)):
+            with open(path, "wb") as stream:
+                stream.write(edit(sound))
+            result = self.league("a")
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn(f"matches.jsonl: line {line}: ", result.stderr)
+
+    def test_one_league_at_a_time_is_in_a_directory_and_a_shorter_one_drops_nothing(self):
+        long = subprocess.Popen([os.path.join(BIN, "striker-sil"), "league", "--teams", "rules,random", "--pairs", "100000",
+                                 "--half-s", "2", "-o", self.file("a")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        path = os.path.join(self.file("a"), "matches.jsonl")
+        try:
+            end = time.monotonic() + 120
+            while (not os.path.exists(path) or content(path).count(b"\n") < 6) and time.monotonic() < end:
+                time.sleep(0.1)
+            refused = self.league("a")
+            self.assertEqual(refused.returncode, 2, refused.stdout)
+            self.assertIn(f"process {long.pid} is at it", refused.stderr)
+        finally:
+            long.kill()
+            long.wait()
+        before = content(path).count(b"\n")
+        self.assertEqual(self.league("a").returncode, 0)
+        self.assertEqual(content(path).count(b"\n"), before)
+        self.assertEqual(json.loads(content(self.file("a"), "league.json"))["matches"], 4)
 
     def test_another_league_is_refused_in_its_directory(self):
         self.assertEqual(self.league("a").returncode, 0)

@@ -108,6 +108,17 @@ class NewRobot(files_case.FilesCase):
         for line, plant in zip(told[8:], ("servo", "drive")):
             self.assertIn(f"kick --robot {robot} --plant {plant} --episodes 20 --seed 1000", line)
 
+    def test_a_robot_with_drives_of_others_is_played_with_torque_drives_alone(self):
+        for drives, plants in (("striker", ["servo", "drive"]), ("odrive", ["drive"])):
+            self.file("mine.toml", f'body_mass_g = 2500\ndrives = "{drives}"\n')
+            self.stand_ins("*--plant?servo*" if plants == ["drive"] else "nothing", 2)
+            result = self.tool(self.file("mine.toml"))
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            played = [line.split("--plant ")[1].split()[0] for line in self.told() if line.startswith("striker-sil")]
+            self.assertEqual(played[-len(plants):], plants)
+            self.assertIn("SIL with torque drives", result.stdout)
+            self.assertEqual("SIL with servos" in result.stdout, "servo" in plants)
+
     def test_the_best_network_is_taken_where_there_is_one(self):
         os.makedirs(self.file("out/mine/training"))
         self.file("out/mine/training/best.safetensors", "")

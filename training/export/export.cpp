@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
+#include <string_view>
 
 #include "training/export/calibration_play.hpp"
 #include "training/export/firmware_limits.hpp"
+#include "training/export/taken_names.hpp"
 #include "training/model/hash.hpp"
 
 namespace striker::training {
@@ -34,6 +36,12 @@ std::vector<RawState> calibration_of(const Model& model, const TaskConfig& task,
                                      const EpisodePlayed& played) {
   require_firmware_serves(task);
   return calibration_play(model.parameters, task, 0, calibration_plays, played);
+}
+
+// Neither C++'s own, nor the firmware's, nor a macro of the compilers.
+bool is_free_name(std::string_view name) {
+  return name.find("__") == std::string_view::npos &&
+         std::ranges::find(taken_names, name) == taken_names.end();
 }
 
 }  // namespace
@@ -77,6 +85,12 @@ std::string policy_name_of(const std::filesystem::path& file) {
     throw std::runtime_error(
         fmt::format("{}: '{}' cannot be the policy's name in C++: use a-z, 0-9 and _, or give one as --name",
                     file.string(), name));
+  }
+  if (!is_free_name(name)) {
+    throw std::runtime_error(fmt::format(
+        "{}: '{}' cannot be the policy's name in C++, where it means something else already: give "
+        "another one as --name, or name the file otherwise",
+        file.string(), name));
   }
   return name;
 }

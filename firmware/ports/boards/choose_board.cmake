@@ -8,6 +8,10 @@ if(STRIKER_BOARD_DIR AND STRIKER_BOARD)
                       "board. Give one of them, in a build folder of its own.")
 endif()
 if(STRIKER_BOARD_DIR)
+  if(STRIKER_BOARD_DIR MATCHES ";")
+    message(FATAL_ERROR "STRIKER_BOARD_DIR: '${STRIKER_BOARD_DIR}' has a ';' in it, which parts a list in CMake: give a path "
+                        "without one.")
+  endif()
   if(NOT EXISTS "${STRIKER_BOARD_DIR}/board.cmake")
     message(FATAL_ERROR "STRIKER_BOARD_DIR: there is no ${STRIKER_BOARD_DIR}/board.cmake. Give the path of a folder that has "
                         "one; firmware/ports/README.md says how a board of your own becomes one.")

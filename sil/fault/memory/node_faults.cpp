@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "firmware/can/messages.hpp"
-#include "sil/fault/memory/weights.hpp"
+#include "sil/fault/memory/bit_flips.hpp"
 
 namespace striker::sil {
 
@@ -100,25 +100,6 @@ class Stall final : public FrameFault {
   std::vector<Waiting> queue_;
 };
 
-// Places in memory that may be damaged, and how many bits they have.
-template <std::size_t count>
-std::uint64_t bits_of(const std::array<std::span<std::byte>, count>& parts) {
-  std::uint64_t bits = 0;
-  for (const auto& part : parts) {
-    bits += 8 * part.size();
-  }
-  return bits;
-}
-
-template <std::size_t count>
-void flip(const std::array<std::span<std::byte>, count>& parts, std::uint64_t bit) {
-  auto part = parts.begin();
-  for (; bit >= 8 * part->size(); ++part) {
-    bit -= 8 * part->size();
-  }
-  (*part)[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
-}
-
 class StateFlips final : public FrameFault {
  public:
   StateFlips(const TimedFault& fault, const Random& random, InProcessLink& controller)
@@ -137,38 +118,6 @@ class StateFlips final : public FrameFault {
   InProcessLink* controller_;
 };
 
-// The weights serve every run of the process: what was flipped is flipped back.
-class WeightFlips final : public FrameFault {
- public:
-  WeightFlips(const TimedFault& fault, const Random& random) : fault_(fault), random_(random) {}
-  ~WeightFlips() override { restore(); }
-
-  void to_controller(std::uint32_t tick, std::vector<can::Frame>&) override {
-    if (tick == fault_.from) {
-      weights_ = writable_weights();
-      for (std::uint32_t i = 0; i < fault_.fault.count; ++i) {
-        flipped_.push_back(random_.below(bits_of(weights_)));
-        flip(weights_, flipped_.back());
-      }
-    } else if (tick == fault_.until) {
-      restore();
-    }
-  }
-
- private:
-  void restore() {
-    for (const std::uint64_t bit : flipped_) {
-      flip(weights_, bit);
-    }
-    flipped_.clear();
-  }
-
-  TimedFault fault_;
-  Random random_;
-  std::array<std::span<std::byte>, 3> weights_;
-  std::vector<std::uint64_t> flipped_;
-};
-
 }  // namespace
 
 std::unique_ptr<FrameFault> make_node_fault(const TimedFault& fault, const Random& random,
@@ -182,8 +131,6 @@ std::unique_ptr<FrameFault> make_node_fault(const TimedFault& fault, const Rando
       return std::make_unique<Stall>(fault, controller);
     case FaultKind::state_flips:
       return std::make_unique<StateFlips>(fault, random, controller);
-    case FaultKind::weight_flips:
-      return std::make_unique<WeightFlips>(fault, random);
     default:
       return nullptr;
   }

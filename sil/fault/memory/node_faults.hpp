@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What goes wrong at the controller's own node: its place on the bus (bus_off, error_passive, interface_down), its
-// process (stall), and its memory (state_flips, weight_flips).
+// process (stall), and its memory (state_flips; of the policy's weights: weight_flips.hpp).
 #pragma once
 
 #include "sil/bus/in_process_link.hpp"

@@ -55,12 +55,13 @@ std::string line_of(std::uint64_t number, const MatchResult& result) {
   return line.dump();
 }
 
-void require_that_match(const MatchResult& result, const MatchSetting& match, std::uint64_t number) {
+void require_that_match(const std::filesystem::path& file, const MatchResult& result,
+                        const MatchSetting& match, std::uint64_t number) {
   if (result.teams != match.teams || result.seed != match.seed || !result.complete) {
     throw std::runtime_error(fmt::format(
-        "matches.jsonl: run {} is not the match {} against {} of seed {}, played to its end: give another --out, or "
+        "{}: run {} is not the match {} against {} of seed {}, played to its end: give another --out, or "
         "remove the line",
-        number, match.teams[0], match.teams[1], match.seed));
+        file.string(), number, match.teams[0], match.teams[1], match.seed));
   }
 }
 
@@ -98,7 +99,8 @@ std::vector<MatchSetting> matches_of(const LeaguePlan& plan) {
 PlayedLeague play_league(const LeaguePlan& plan, const std::function<bool()>& stop) {
   const std::vector<MatchSetting> matches = matches_of(plan);
   host::require_writable(plan.directory);
-  RunFile file(plan.directory / "matches.jsonl", header_of(plan));
+  const std::filesystem::path matches_jsonl = plan.directory / "matches.jsonl";
+  RunFile file(matches_jsonl, header_of(plan));
   const SharedRuns shared = {
       .runs = matches.size(),
       .jobs = plan.jobs,
@@ -116,8 +118,9 @@ PlayedLeague play_league(const LeaguePlan& plan, const std::function<bool()>& st
   std::vector<MatchResult> results;
   for (const auto& [number, line] : file.runs()) {
     if (number < matches.size()) {
-      results.push_back(match_result(nlohmann::ordered_json::parse(line), "matches.jsonl"));
-      require_that_match(results.back(), matches[number], number);
+      results.push_back(match_result(nlohmann::ordered_json::parse(line),
+                                     fmt::format("{}: run {}", matches_jsonl.string(), number)));
+      require_that_match(matches_jsonl, results.back(), matches[number], number);
     }
   }
   PlayedLeague league{.table = league_table(results), .played = results.size(), .matches = matches.size()};

@@ -72,7 +72,9 @@ struct MatchResult {
   bool operator==(const MatchResult&) const = default;
 };
 
-// `source` is what errors name. Throws std::runtime_error that names it, the field and what is wrong with it.
+// `source` is what errors name. Throws std::runtime_error that names it, the field and what is wrong with it: a value of
+// another type, or one that no match has, such as -9 goals, a share of 1.5, half a shot, own goals that are not among
+// the opponent's goals, or a state that is not 16 hexadecimal digits.
 [[nodiscard]] MatchResult match_result(const nlohmann::ordered_json& report, std::string_view source);
 [[nodiscard]] MatchResult read_match_result(const std::filesystem::path& match_json);
 

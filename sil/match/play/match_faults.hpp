@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What goes wrong in a match: a plan of faults (sil/fault/README.md) whose cases are named robot0 to robot9, each with the
-// faults of that robot. `from_ms` and `from_tick` both count from the match's first tick; what else a case may set up is
+// faults of that robot, and of nobody else. `from_ms` and `from_tick` both count from the match's first tick; what else a case may set up is
 // the match's own.
 //
 //   [[case]]

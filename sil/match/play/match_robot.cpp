@@ -63,7 +63,9 @@ void MatchRobot::end_tick(std::uint32_t tick) {
     faulty_seat_->clock().end_tick({.tick = tick, .robots = {}, .ball = {}});
     lost_frames_ += faulty_seat_->frames_not_through();
   }
+  const std::uint64_t statuses = operator_.heard().statuses();
   operator_.hear(seat_->answer());
+  status_tick_ = operator_.heard().statuses() != statuses ? tick : status_tick_;
   const auto is_at_limit = [this](const WheelOrder& wheel) {
     return std::abs(wheel.torque_Nm) >= torque_limit_Nm_;
   };
@@ -83,6 +85,7 @@ RobotRecord MatchRobot::take_record(const World& world, std::uint32_t tick) {
       .height_m = world.robot_height_m(seat_->robot()) + up * (standing_height_m - centre_of_mass_height_m),
       .state = operator_.heard().controller_state(),
       .fault = operator_.heard().controller_fault(),
+      .status_age_ms = static_cast<int>(tick - status_tick_),
       .order_age_ms =
           last_order_tick_ ? std::optional(static_cast<int>(tick - *last_order_tick_)) : std::nullopt,
       .lost_frames = std::exchange(lost_frames_, 0),

@@ -79,6 +79,7 @@ class MatchRobot {
   OrderSender team_;
   std::optional<RobotOrder> last_order_;
   std::optional<std::uint32_t> last_order_tick_;
+  std::uint32_t status_tick_ = 0;
   int saturated_ticks_ = 0;
   int lost_frames_ = 0;
 };

@@ -44,6 +44,7 @@ struct RobotRecord {
   double height_m = standing_height_m;        // of the body's centre above the floor
   core::State state = core::State::standby;   // by its last status
   core::Fault fault = core::Fault::none;
+  int status_age_ms = 0;            // since its last status came; since the match began, if none came
   std::optional<int> order_age_ms;  // since its last order came; none: it never had one
   int lost_frames = 0;              // on its bus, in this frame: lost, late or altered on the way
   int saturated_ticks = 0;          // of the frame's: a wheel was told its torque limit

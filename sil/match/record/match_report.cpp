@@ -128,6 +128,7 @@ Json team_json(const std::string& name, const MatchFigures& figures, Team team) 
   return {{"name", name},
           {"goals", own.goals},
           {"own_goals", own.own_goals},
+          {"orders", {{"asked_frames", own.asked_frames}, {"unanswered_frames", own.unanswered_frames}}},
           {"ball", ball_json(figures, team, sum.touches)},
           {"attack",
            {{"shots", own.shots},

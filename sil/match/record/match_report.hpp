@@ -11,6 +11,7 @@
 //                    drops of these; deadlocks_per_10_min of played_s
 //   red, blue        of each team:
 //     name, goals, own_goals (for the opponent)
+//     orders         asked_frames, unanswered_frames: those in which it ordered nobody
 //     ball           possession_s, possession_share (of both teams'), control_s, control_share (likewise),
 //                    attacking_third_share of played_s, touches, passes, penalty_area_entries
 //     attack         shots, shots_on_target, conversion (goals that are no own goals of the opponent, a shot), kicks,

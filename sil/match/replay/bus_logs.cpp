@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <array>
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
@@ -79,34 +78,21 @@ void BusLogs::end_run() {
   }
 }
 
-BusLogReader::BusLogReader(const std::filesystem::path& file)
-    : file_(file), stream_(gzopen(file.c_str(), "rbe")) {
-  if (stream_ == nullptr) {
-    fail(file_, "cannot be read");
-  }
-}
-
-BusLogReader::~BusLogReader() {
-  gzclose(stream_of(stream_));
-}
-
+// The reader's line has no end of its own, so that one which is missing in the file is said in words.
 std::optional<std::string> BusLogReader::next() {
-  std::array<char, 128> piece = {};
   std::string line;
-  while (line.empty() || line.back() != '\n') {
-    errno = 0;
-    if (gzgets(stream_of(stream_), piece.data(), piece.size()) == nullptr) {
-      int error = Z_OK;
-      gzerror(stream_of(stream_), &error);
-      if (error != Z_OK && error != Z_STREAM_END) {
-        fail(file_, "cannot be read to its end");
-      }
-      return line.empty() ? std::nullopt : std::optional(line);
+  for (;;) {
+    const std::size_t end = left_.find('\n');
+    line += left_.substr(0, end);
+    if (end != std::string_view::npos) {
+      left_.remove_prefix(end + 1);
+      return line;
     }
-    line += piece.data();
+    left_ = reader_.next();
+    if (left_.empty()) {
+      return line.empty() ? std::nullopt : std::optional(line + " (a line without an end)");
+    }
   }
-  line.pop_back();
-  return line;
 }
 
 }  // namespace striker::sil

@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "sil/match/replay/gzip_reader.hpp"
 #include "sil/record/observer.hpp"
 
 namespace striker::sil {
@@ -35,20 +37,18 @@ class BusLogs final : public Observer {
   std::vector<Log> logs_;
 };
 
-// Reads one, gzipped or not, line by line, without its end. Throws std::runtime_error that names the file.
+// Reads one, gzipped or not, line by line, without its end; a last line that has none says so. Throws
+// std::runtime_error that names the file, also if it holds anything behind what was compressed.
 class BusLogReader {
  public:
-  explicit BusLogReader(const std::filesystem::path& file);
-  ~BusLogReader();
-  BusLogReader(const BusLogReader&) = delete;
-  BusLogReader& operator=(const BusLogReader&) = delete;
+  explicit BusLogReader(const std::filesystem::path& file) : reader_(file) {}
 
   // None at the end.
   [[nodiscard]] std::optional<std::string> next();
 
  private:
-  std::filesystem::path file_;
-  void* stream_ = nullptr;
+  GzipReader reader_;
+  std::string_view left_;  // of what was read last
 };
 
 }  // namespace striker::sil

@@ -73,9 +73,9 @@ std::optional<std::string> first_other_value(const std::filesystem::path& match_
                                              const nlohmann::ordered_json& now) {
   auto recorded = nlohmann::json::parse(host::read_file(match_json));
   nlohmann::json again = nlohmann::json::parse(now.dump());
-  for (const char* of_build : {"version", "git_hash", "build_type"}) {
-    recorded.erase(of_build);
-    again.erase(of_build);
+  for (const std::string_view of_build : keys_of_build) {
+    recorded.erase(std::string(of_build));
+    again.erase(std::string(of_build));
   }
   const nlohmann::json differences = nlohmann::json::diff(recorded, again);
   if (differences.empty()) {

@@ -2,11 +2,13 @@
 // What a recorded match was played by, read from its match.json (sil/match/record/match_report.hpp).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "sil/match/play/match_run.hpp"
 
@@ -21,8 +23,11 @@ struct RecordedMatch {
 // Throws std::runtime_error that names the file, and the key that is missing or has no meaning.
 [[nodiscard]] RecordedMatch read_match(const std::filesystem::path& match_json);
 
-// The first value of a recorded match.json that the match played again does not give: "/red/goals is 3, now 2". What
-// says with which build it was played does not count.
+// What says with which build a match was played.
+inline constexpr std::array<std::string_view, 3> keys_of_build = {"version", "git_hash", "build_type"};
+
+// The first value of a recorded match.json that the match played again does not give: "/red/goals is 3, now 2". The
+// keys of its build do not count.
 [[nodiscard]] std::optional<std::string> first_other_value(const std::filesystem::path& match_json,
                                                            const nlohmann::ordered_json& now);
 

@@ -21,6 +21,7 @@
 #include "sil/match/team/tcp/tcp_strategy.hpp"
 #include "sil/programs/kick_options.hpp"
 #include "sil/programs/match/match_options.hpp"
+#include "sil/programs/match/player_watch.hpp"
 #include "sil/programs/view/view_session.hpp"
 
 namespace striker::sil {
@@ -82,7 +83,8 @@ void define(CLI::App& match, MatchOptions& options) {
   MatchSetting& setting = options.setting;
   match.footer(
       "Exit status: 0 played to its end; 2 wrong use, or a bus or file that fails; 130 interrupted: what was played is "
-      "kept, and marked as incomplete.");
+      "kept, and marked as incomplete. A player program that is gone, or does not answer, is told on stderr, and its "
+      "frames without an answer in match.json; the match goes on.");
   match
       .add_option("--red", setting.teams[0],
                   "who plays in red, or tcp:PORT: a player program of AI Soccer 2020")
@@ -161,7 +163,8 @@ int play_once(const MatchOptions& options, ViewSession* viewers) {
     parts.links[robot] = live ? live->faults[robot].get() : links[robot].get();
   }
   MatchProgress progress(options.first_s);
-  std::vector<MatchObserver*> records = {&progress};
+  PlayerWatch players(options.setting.teams, strategies);
+  std::vector<MatchObserver*> records = {&progress, &players};
   std::vector<std::unique_ptr<MatchObserver>> files;
   if (!options.out.empty()) {
     files = match_records(options.out);

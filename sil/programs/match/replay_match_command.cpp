@@ -3,22 +3,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <vector>
+
 #include "firmware/core/tick.hpp"
 #include "firmware/host/command_line.hpp"
 #include "firmware/host/stop_signal.hpp"
-#include "sil/match/record/match_report.hpp"
+#include "firmware/host/temporary_directory.hpp"
+#include "sil/match/record/match_records.hpp"
 #include "sil/match/replay/match_replay.hpp"
+#include "sil/match/replay/record_comparison.hpp"
 #include "sil/match/replay/recorded_plan.hpp"
 #include "sil/programs/replay_command.hpp"
 
 namespace striker::sil {
 
 namespace {
-
-struct Figures final : MatchObserver {
-  void frame(const MatchFrame& frame) override { statistics.add(frame); }
-  MatchStatistics statistics;
-};
 
 void tell(const ReplayDifference& difference) {
   fmt::print("tick {}, frame {}, robot {}: recorded {}, now {}\n", difference.tick,
@@ -31,8 +33,10 @@ void tell(const ReplayDifference& difference) {
 
 int play_match_again(const std::filesystem::path& directory) {
   const RecordedMatch recorded = read_match(directory / "match.json");
-  Figures figures;
-  const std::array<MatchObserver*, 1> records = {&figures};
+  const host::TemporaryDirectory now;
+  const auto files = match_records(now.path());
+  std::vector<MatchObserver*> records;
+  std::ranges::transform(files, std::back_inserter(records), &std::unique_ptr<MatchObserver>::get);
   const MatchReplay again = replay_match(recorded.plan, recorded.frames, directory / "bus",
                                          links_in_process(), records, host::stop_requested);
   if (again.difference) {
@@ -47,12 +51,11 @@ int play_match_again(const std::filesystem::path& directory) {
     fmt::print("but the match ended in state {:016x}\n", recorded.end.state_hash);
     return exit_differs;
   }
-  const auto now = match_json(recorded.plan.header, figures.statistics.figures(),
-                              {.complete = recorded.end.complete, .state_hash = again.end.state_hash});
-  if (const auto other = first_other_value(directory / "match.json", now)) {
-    fmt::print("but in match.json {}\n", *other);
+  if (const auto other = first_other_record(directory, now.path())) {
+    fmt::print("but {}\n", *other);
     return exit_differs;
   }
+  fmt::print("match.json, events.jsonl, frames.csv and match.log.gz, all as recorded\n");
   return 0;
 }
 

@@ -6,7 +6,8 @@
 
 namespace striker::sil {
 
-// The exit status: 0 the same frames on all buses and the same state at the end, 1 others, 130 interrupted.
+// The exit status: 0 the same frames on all buses, the same state at the end and the same records, 1 others,
+// 130 interrupted.
 int play_match_again(const std::filesystem::path& directory);
 
 }  // namespace striker::sil

@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/scenario/runs/shared_runs.hpp"
 
-#include <cstdlib>
 #include <thread>
 #include <vector>
 
 #include "firmware/host/progress.hpp"
+#include "sil/scenario/runs/mpi_ranks.hpp"
 #include "sil/scenario/runs/worker_pool.hpp"
 
 namespace striker::sil {
 
 namespace {
-
-struct Ranks {
-  std::uint64_t rank = 0;
-  std::uint64_t size = 1;
-};
-
-Ranks ranks_of_mpirun() {
-  const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
-  const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
-  if (rank == nullptr || size == nullptr) {
-    return {};
-  }
-  return {.rank = std::strtoull(rank, nullptr, 10), .size = std::strtoull(size, nullptr, 10)};
-}
 
 void carry_out_share(const SharedRuns& shared, const Ranks& ranks, RunFile& file,
                      const std::function<bool()>& stop) {

@@ -72,6 +72,44 @@ TEST(MatchResult, NamesWhatIsMissingOrWrong) {
   EXPECT_NE(refusal_of(no_score), "taken");
 }
 
+TEST(MatchResult, WhatNoMatchHasIsRefused) {
+  MatchResult one = played("a", "b", 1, 2, 1);
+  for (auto& figures : one.figures) {
+    for (std::size_t column = 0; column < league_columns.size(); ++column) {
+      figures[column] = 1.0;
+    }
+  }
+  const Json sound = json_of(one);
+  EXPECT_EQ(refusal_of(sound), "taken");
+  const auto refused = [&](const std::string& pointer, const Json& value) {
+    Json wrong = sound;
+    wrong[Json::json_pointer(pointer)] = value;
+    const std::string refusal = refusal_of(wrong);
+    EXPECT_NE(refusal.find("out/match.json: " + pointer), std::string::npos) << value << ": " << refusal;
+  };
+  for (const Json& value : {Json(-9), Json(9.7), Json(true), Json("2"), Json(), Json(2'000'000)}) {
+    refused("/result/score/0", value);
+    refused("/blue/own_goals", value);
+  }
+  refused("/result/score", Json::array({2, 1, 0}));
+  refused("/teams", Json::array({"a", "b", "c"}));
+  refused("/red/own_goals", 2);  // blue has one goal
+  refused("/seed", 1.0);
+  refused("/complete", 1);
+  for (const char* hash : {"Z123456789abcdef", "0123456789ABCDEF", "0123456789abcde", ""}) {
+    refused("/state_hash", hash);
+  }
+  for (const LeagueColumn& column : league_columns) {
+    const std::string pointer = "/red" + std::string(column.pointer);
+    for (const Json& value : {Json(-1), Json("1"), Json(true)}) {
+      refused(pointer, value);
+    }
+  }
+  refused("/red/ball/possession_share", 1.01);
+  refused("/red/attack/conversion", 1.01);
+  refused("/red/attack/shots", 0.5);
+}
+
 TEST(MatchResult, NamesAFileThatIsNoJson) {
   const Scratch scratch;
   std::ofstream(scratch / "match.json") << "{\"complete\": tr";

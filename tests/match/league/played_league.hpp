@@ -16,6 +16,7 @@ inline MatchResult played(const std::string& red, const std::string& blue, std::
   result.teams = {red, blue};
   result.seed = seed;
   result.complete = true;
+  result.state_hash = "0123456789abcdef";
   result.goals = {red_goals, blue_goals};
   return result;
 }

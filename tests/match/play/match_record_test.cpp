@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sil/match/play/match_faults.hpp"
+#include "sil/match/record/statistics/match_statistics.hpp"
 #include "tests/match/play/watched_match.hpp"
 
 namespace striker::sil {
@@ -62,6 +63,46 @@ until_ms = 600000
   for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
     EXPECT_EQ(told.lost[robot] > 100, robot == 6) << robot << ": " << told.lost[robot];
   }
+}
+
+// What robot 3's statistics say with this fault from 1.5 s to 4 s, and whose controller had a fault of its policy.
+struct Disturbed {
+  double undriven_s = 0.0;
+  RobotSet policy_corrupt;
+};
+
+Disturbed disturbed_by(const std::string& kind) {
+  struct Figures final : MatchObserver {
+    void frame(const MatchFrame& frame) override { statistics.add(frame); }
+    MatchStatistics statistics;
+  } figures;
+  const MatchSetting setting = {.teams = {"rules", "striker"}, .half_s = 3};
+  MatchPlan plan = plan_of(setting);
+  add_faults(plan,
+             "[[case]]\nname = \"robot3\"\n[[case.fault]]\nkind = \"" + kind +
+                 "\"\nfrom_ms = 1500\nuntil_ms = 4000\n",
+             "a plan");
+  ShortMatch match(setting);
+  match.play(plan, {&figures}, {});
+  Disturbed disturbed;
+  const auto& robots = figures.statistics.figures().robots;
+  disturbed.undriven_s = robots[3].undriven_ms / 1e3;
+  for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
+    disturbed.policy_corrupt[robot] =
+        robots[robot].faults[static_cast<std::size_t>(core::Fault::policy_corrupt)] > 0;
+  }
+  return disturbed;
+}
+
+TEST(MatchRecord, ADeadOrUnheardControllerIsNotDriven) {
+  for (const char* kind : {"brown_out", "interface_down", "bus_off", "loss", "stall"}) {
+    EXPECT_GE(disturbed_by(kind).undriven_s, 1.9) << kind;  // the kickoff's lock is no play
+  }
+}
+
+// All ten read the same weights; those of one are damaged for it alone.
+TEST(MatchRecord, FlippedWeightsAreThatRobotsAlone) {
+  EXPECT_EQ(disturbed_by("weight_flips").policy_corrupt, RobotSet().set(3));
 }
 
 TEST(MatchRecord, ThePolicyOfATeamThatKicksIsNamed) {

@@ -163,6 +163,19 @@ TEST(Robots, AreMeasuredWhileTheyMayPlay) {
   EXPECT_NEAR(figures.way_m, 0.1, 1e-12);
 }
 
+// Whatever it said last: its status comes every 10 ms, and twice as long without one is too long.
+TEST(Robots, AControllerThatIsNotHeardDrivesNobody) {
+  RecordedMatch play;
+  play.open_play();
+  const int before_ms = play.figures().robots[red(3)].undriven_ms;
+  play.robots[red(3)].status_age_ms = 20;
+  play.step();
+  EXPECT_EQ(play.figures().robots[red(3)].undriven_ms, before_ms);
+  play.robots[red(3)].status_age_ms = 21;
+  play.step();
+  EXPECT_EQ(play.figures().robots[red(3)].undriven_ms, before_ms + 50);
+}
+
 TEST(Robots, AFaultIsCountedAsItBegins) {
   RecordedMatch play;
   play.robots[blue(1)].fault = core::Fault::vision_lost;

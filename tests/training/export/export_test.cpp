@@ -200,5 +200,26 @@ TEST(Export, WhatTheFirmwareCannotServeIsRefused) {
   EXPECT_THROW((void)export_model(some_model({.inputs = 10}), field), std::runtime_error);
 }
 
+std::string refusal_of(const std::string& name) {
+  try {
+    EXPECT_EQ(policy_name_of(name), name);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PolicyName, IsRefusedWhereCppHasAnotherMeaningForIt) {
+  for (const char* name : {"kick", "kick_2", "kick_dqn", "aimed", "policy", "internal", "classes", "ints"}) {
+    EXPECT_EQ(refusal_of(name), "") << name;
+  }
+  for (const char* name : {"int", "class", "co_await", "char8_t", "and_eq", "infer", "built_in", "kernel",
+                           "linux", "two__parts"}) {
+    EXPECT_NE(refusal_of(name).find("means something else already: give another one as --name"),
+              std::string::npos)
+        << name;
+  }
+}
+
 }  // namespace
 }  // namespace striker::training

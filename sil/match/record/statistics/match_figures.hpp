@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/can/messages.hpp"
 #include "firmware/core/state.hpp"
+#include "sil/match/record/match_frame.hpp"
 #include "sil/match/referee/event.hpp"
 
 namespace striker::sil {
@@ -25,6 +27,11 @@ struct SetPieces {
 struct TeamFigures {
   int goals = 0;      // those that count for it, own goals of the opponent too
   int own_goals = 0;  // that count for the opponent
+
+  // Frames in which the team was asked and the referee let one of its robots move; and those of them in which it ordered
+  // none of these: a player program that was late, silent, gone, or said nonsense.
+  int asked_frames = 0;
+  int unanswered_frames = 0;
 
   // The clock runs, and it was this team that touched last, at most 3 s ago.
   int possession_ms = 0;
@@ -71,12 +78,19 @@ struct TeamFigures {
   int out_ms = 0;            // of robots that were sent out, summed, while the clock ran
 };
 
+// A controller drives its robot if it says so: by its last status it is active, and that came at most two of its periods
+// ago. One that is dead, off the bus or not heard drives nobody, whatever it said last.
+[[nodiscard]] constexpr bool is_driven(const RobotRecord& robot) {
+  return robot.state == core::State::active &&
+         robot.status_age_ms <= 2 * int{can::layout<can::Status>.info.period_ms};
+}
+
 // Of a robot and its controller. "While it may play": the clock runs, and it is neither locked nor sent out.
 struct RobotFigures {
   int touches = 0;                    // that began
   double way_m = 0.0;                 // of its centre, while it may play
   int play_frames = 0;                // while it may play
-  int undriven_ms = 0;                // its controller was not active, while it may play
+  int undriven_ms = 0;                // see is_driven, while it may play
   std::int64_t order_age_sum_ms = 0;  // over frames with an order, while it may play
   int order_frames = 0;
   int order_age_max_ms = 0;

@@ -34,6 +34,17 @@ bool controls(const Pose& pose, const RobotRecord& robot, const BallSeen& ball,
 
 }  // namespace
 
+std::optional<bool> is_answered(const MatchFrame& frame, Team team) {
+  const auto& orders = frame.orders[index_of(team)];
+  std::optional<bool> answered;
+  for (std::size_t id = 0; orders && id < robots_a_team; ++id) {
+    if (frame.ruling.may_move(robot_of(team, id))) {
+      answered = answered.value_or(false) || (*orders)[id].has_value();
+    }
+  }
+  return answered;
+}
+
 void MatchStatistics::add(const MatchFrame& frame) {
   const Ruling& ruling = frame.ruling;
   ++figures_.frames;
@@ -44,6 +55,7 @@ void MatchStatistics::add(const MatchFrame& frame) {
     add_play(frame);
   }
   add_controllers(frame);
+  add_answers(frame);
   add_events(ruling);
   if (clock_runs(state_) && !clock_runs(ruling.state)) {
     const bool is_goal = std::ranges::count(ruling.events, EventKind::goal, &MatchEvent::kind) > 0;
@@ -128,7 +140,7 @@ void MatchStatistics::add_robots(const MatchFrame& frame) {
     const Pose& pose = frame.seen.robots[robot];
     ++figures.play_frames;
     figures.way_m += std::hypot(pose.x_m - placed_[robot].x_m, pose.y_m - placed_[robot].y_m);
-    figures.undriven_ms += record.state == core::State::active ? 0 : frame_ms;
+    figures.undriven_ms += is_driven(record) ? 0 : frame_ms;
     figures.saturated_ticks += record.saturated_ticks;
     if (record.order_age_ms) {
       figures.order_age_sum_ms += *record.order_age_ms;
@@ -146,6 +158,14 @@ void MatchStatistics::add_controllers(const MatchFrame& frame) {
       ++figures_.robots[robot].faults[static_cast<std::size_t>(record.fault)];
     }
     faults_[robot] = record.fault;
+  }
+}
+
+void MatchStatistics::add_answers(const MatchFrame& frame) {
+  for (const Team team : teams) {
+    const auto answered = is_answered(frame, team);
+    of(team).asked_frames += answered ? 1 : 0;
+    of(team).unanswered_frames += answered == false ? 1 : 0;
   }
 }
 

@@ -7,6 +7,9 @@
 //   report(statistics.figures());
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "sil/match/record/match_frame.hpp"
 #include "sil/match/record/statistics/kicks.hpp"
 #include "sil/match/record/statistics/match_figures.hpp"
@@ -14,6 +17,9 @@
 #include "sil/match/record/statistics/touches.hpp"
 
 namespace striker::sil {
+
+// Whether a team ordered any robot that the referee lets move in this frame; none: it was not asked, or none may move.
+[[nodiscard]] std::optional<bool> is_answered(const MatchFrame& frame, Team team);
 
 class MatchStatistics {
  public:
@@ -28,6 +34,7 @@ class MatchStatistics {
   void add_control(const MatchFrame& frame);
   void add_robots(const MatchFrame& frame);
   void add_controllers(const MatchFrame& frame);
+  void add_answers(const MatchFrame& frame);
   void add_events(const Ruling& ruling);
   void add_stop(const MatchEvent& event);
   void add_robot_event(const MatchEvent& event);

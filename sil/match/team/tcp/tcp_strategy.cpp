@@ -70,6 +70,7 @@ TeamOrders TcpStrategy::play(const TeamView& view) {
 void TcpStrategy::wait_until_ready() {
   const Deadline deadline = after(options_.ready_timeout);
   if (!socket_.accept(deadline)) {
+    why_gone_ = "it never came";
     return;
   }
   while (const auto message = next_message(deadline)) {
@@ -77,14 +78,25 @@ void TcpStrategy::wait_until_ready() {
       return;
     }
   }
-  socket_.hang_up();
+  hang_up("it did not get ready in time");
+}
+
+void TcpStrategy::hang_up(std::string_view why) {
+  if (is_connected()) {
+    why_gone_ = why;
+    socket_.hang_up();
+  }
+}
+
+std::optional<std::string_view> TcpStrategy::why_gone() const {
+  return has_waited_ && !is_connected() ? std::optional(why_gone_) : std::nullopt;
 }
 
 std::optional<PlayerMessage> TcpStrategy::next_message(Deadline deadline) {
   while (true) {
     auto message = messages_.next();
     if (messages_.is_broken()) {
-      socket_.hang_up();
+      hang_up("it said what is no message");
       return std::nullopt;
     }
     if (!message) {
@@ -96,7 +108,7 @@ std::optional<PlayerMessage> TcpStrategy::next_message(Deadline deadline) {
       continue;
     }
     if (--messages_left_ <= 0) {
-      socket_.hang_up();
+      hang_up("it said too much in one frame");
       return std::nullopt;
     }
     if (message->name == "get_info") {

@@ -52,12 +52,15 @@ class TcpStrategy final : public Strategy {
 
   [[nodiscard]] std::uint16_t port() const { return socket_.port(); }
   [[nodiscard]] bool is_connected() const { return socket_.is_connected(); }
+  // Why the player is gone for good: "it never came"; none while it is there, or has not been waited for.
+  [[nodiscard]] std::optional<std::string_view> why_gone() const;
   [[nodiscard]] int frames_without_answer() const { return frames_without_answer_; }
 
  private:
   using Deadline = PlayerSocket::Deadline;
 
   void wait_until_ready();
+  void hang_up(std::string_view why);
   // The next message by then. Answers get_info by itself.
   [[nodiscard]] std::optional<PlayerMessage> next_message(Deadline deadline);
   [[nodiscard]] TeamOrders answer(Deadline deadline);
@@ -67,6 +70,7 @@ class TcpStrategy final : public Strategy {
   PlayerMessages messages_;
   int messages_left_ = 0;  // of this frame's
   bool has_waited_ = false;
+  std::string_view why_gone_ = "it hung up, or did not read what it was sent";
   TeamView last_view_;
   int frames_without_answer_ = 0;
 };
