@@ -10,7 +10,7 @@
 
 #include "training/export/calibration_play.hpp"
 #include "training/export/firmware_limits.hpp"
-#include "training/export/taken_names.hpp"
+#include "training/export/names/taken_names.hpp"
 #include "training/model/hash.hpp"
 
 namespace striker::training {

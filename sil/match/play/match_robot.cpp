@@ -5,9 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "firmware/can/messages.hpp"
 #include "sil/fault/live_faults.hpp"
+#include "sil/match/record/statistics/match_figures.hpp"
 
 namespace striker::sil {
+
+static_assert(status_period_ms == can::layout<can::Status>.info.period_ms);
 
 MatchRobot::MatchRobot(std::size_t robot, const core::RobotDescription& description,
                        std::unique_ptr<Plant> plant, ControllerLink& link, const RobotFaults& faults)

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware/can/messages.hpp"
 #include "firmware/core/state.hpp"
 #include "sil/match/record/match_frame.hpp"
 #include "sil/match/referee/event.hpp"
@@ -78,11 +77,13 @@ struct TeamFigures {
   int out_ms = 0;            // of robots that were sent out, summed, while the clock ran
 };
 
+inline constexpr int status_period_ms =
+    10;  // the message table's; sil/match/play/match_robot.cpp holds it to it
+
 // A controller drives its robot if it says so: by its last status it is active, and that came at most two of its periods
 // ago. One that is dead, off the bus or not heard drives nobody, whatever it said last.
 [[nodiscard]] constexpr bool is_driven(const RobotRecord& robot) {
-  return robot.state == core::State::active &&
-         robot.status_age_ms <= 2 * int{can::layout<can::Status>.info.period_ms};
+  return robot.state == core::State::active && robot.status_age_ms <= 2 * status_period_ms;
 }
 
 // Of a robot and its controller. "While it may play": the clock runs, and it is neither locked nor sent out.
