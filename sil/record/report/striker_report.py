@@ -11,7 +11,8 @@ Each RUN is a directory that a program of Striker wrote:
   of a league   league.json: table and pairings with their intervals
   of a campaign runs.jsonl of 'striker-sil campaign': outcomes by fault, and every violated invariant
 
-The same runs give the same bytes.
+What is no whole result (not driven all along, interrupted, cut) is said above the run. The same runs give the same bytes.
+REPORT.html may be there if it is an earlier report.
 """
 
 import argparse
@@ -20,10 +21,12 @@ import os
 import subprocess
 import sys
 
+from striker_files import write_whole
 from striker_logs import LogError
 from striker_runs import read_run
 
 HERE = os.path.dirname(os.path.realpath(__file__))
+MARK = b"<title>Striker report</title>"  # of every page, so that -o replaces nothing else
 
 
 def page_of(runs):
@@ -31,21 +34,9 @@ def page_of(runs):
         page = file.read()
     with open(os.path.join(HERE, "striker_report.js"), encoding="utf-8") as file:
         script = file.read()
-    # "</" would end the script's element, whatever stands around it.
-    data = json.dumps(runs, separators=(",", ":")).replace("</", "<\\/")
+    # HTML must find nothing in it: "</script" would end the script's element, and "<!--<script" hide its end.
+    data = json.dumps(runs, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     return page.replace("/*SCRIPT*/", f"const runs = {data};\n{script}")
-
-
-def write_whole(file, text):
-    part = f"{file}.part"
-    try:
-        with open(part, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        os.replace(part, file)
-    except OSError:
-        if os.path.exists(part):
-            os.remove(part)
-        raise
 
 
 class ShowVersion(argparse.Action):
@@ -64,12 +55,13 @@ def main():
     parser.add_argument("-o", "--out", required=True, metavar="REPORT.html")
     parser.add_argument("--version", action=ShowVersion, nargs=0, help="show the build's version and exit")
     options = parser.parse_args()
+    sys.stdout.reconfigure(errors="backslashreplace")
     try:
         text = page_of([read_run(run) for run in options.run])
     except LogError as error:
         refuse(error)
     try:
-        write_whole(options.out, text)
+        write_whole(options.out, text.encode(), MARK)
     except OSError as error:
         refuse(f"{options.out}: {error.strerror}; give a file that can be written with -o")
     print(f"{options.out}: {len(options.run)} runs, {len(text.encode()) / 1e6:.2f} MB")

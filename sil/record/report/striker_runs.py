@@ -4,17 +4,20 @@ whole degrees.
 
   kind       "kicks", "match", "league", "campaign"
   title      a line
+  notices    [why the run, or a part of it, is no whole result, ...]
   facts      [[name, value], ...]
-  replays    [{"name", "times", "robots": [[[x, y, heading] or null, ...], ...], "ball": [[x, y] or null, ...],
+  replays    [{"number", "name", "times", "robots": [[[x, y, heading] or null, ...], ...], "ball": [[x, y] or null, ...],
                "notes": [a line for each time], "marks": [[time, text], ...]}, ...]
-  tables     [{"name", "columns", "rows", "replay": the column that names the row's replay, or null}, ...]
+  tables     [{"name", "columns", "rows", "replay": the column with the number of the row's replay, or null}, ...]
 """
 
 import collections
 import json
 import os
 
-from striker_logs import LogError, kicks_of, places_of, rewards_of, summary_of
+from striker_logs import OTHER_BUILD, ROW, LogError, doubts_of, kicks_of, places_of, rows_of, summary_of
+from striker_records import (FLAG, LIST, NAMES, NUMBER, NUMBER_OR_NULL, OBJECT, SCORE, TEXT, TEXT_OR_NULL, TEXT_OR_NUMBER, WHOLE,
+                             WHOLES, load, load_lines)
 
 KNOWN = (("match.json", "match"), ("kick.json", "kicks"), ("league.json", "league"), ("runs.jsonl", "campaign"))
 
@@ -22,26 +25,39 @@ KNOWN = (("match.json", "match"), ("kick.json", "kicks"), ("league.json", "leagu
 def read_run(directory):
     for name, kind in KNOWN:
         if os.path.exists(os.path.join(directory, name)):
-            return {"kicks": kicks, "match": match, "league": league, "campaign": campaign}[kind](directory)
+            read = {"kicks": kicks, "match": match, "league": league, "campaign": campaign}[kind]
+            return {"notices": [], **read(directory)}
     raise LogError(f"{directory}: is no run; give a directory with one of {', '.join(name for name, _ in KNOWN)}")
 
 
-def load(directory, name, parse):
-    file = os.path.join(directory, name)
-    try:
-        with open(file, encoding="utf-8") as stream:
-            return parse(stream)
-    except OSError as error:
-        raise LogError(f"{file}: {error.strerror}; give the directory of a whole run") from error
-    except (ValueError, KeyError, TypeError) as error:
-        raise LogError(f"{file}: cannot be read ({error}); make the run again") from error
+WHOLE_RUN = "give the directory of a whole run"
+KICK_FACTS = {"episodes": WHOLE, "mean_reward": NUMBER, "reward_ci95": NUMBER, "contact_rate": NUMBER, "kick_rate": NUMBER,
+              "seed": WHOLE, "plant": TEXT, "policy": TEXT, "git_hash": TEXT}
+MATCH_FACTS = {"complete": FLAG, "seed": WHOLE, "plant": TEXT, "rule_set": TEXT, "state_hash": TEXT, "git_hash": TEXT}
+TEAM = {"team": TEXT, "played": WHOLE, "won": WHOLE, "drawn": WHOLE, "lost": WHOLE, "points": WHOLE,
+        "goal_difference": NUMBER_OR_NULL, "goal_difference_half_width": NUMBER_OR_NULL}
+PAIRING = {"first": TEXT, "second": TEXT, **{name: kind for name, kind in TEAM.items() if name not in ("team", "points")}}
+RUN = {"run": WHOLE, "faults": TEXT, "outcome": TEXT, "violations": LIST, "failure": TEXT}
+
+
+def taken(record, kinds):
+    return {name: record.take(name, kind) for name, kind in kinds.items()}
+
+
+def figures(record):
+    """What of it is no part: numbers."""
+    return {name: record.take(name, NUMBER_OR_NULL) for name in record.values if name not in record.names(OBJECT)}
+
+
+def listed(numbers):
+    return ", ".join(map(str, numbers[:20])) + (f" and {len(numbers) - 20} more" if len(numbers) > 20 else "")
 
 
 def rounded(value, digits=3):
     return round(value, digits) if isinstance(value, float) else value
 
 
-def kick_replay(number, kick, reward):
+def kick_replay(kick, row):
     decisions = dict((round(time_s * 1000), (action, best, following))
                      for time_s, action, best, following in kick.decisions)
     ball = {round(time_s * 1000): (round(x_m * 1000), round(y_m * 1000)) for time_s, x_m, y_m in kick.ball}
@@ -55,22 +71,29 @@ def kick_replay(number, kick, reward):
         times.append(time_ms)
         robot.append([round(x_m * 1000), round(y_m * 1000), round(heading_rad * 57.29577951308232)])
         notes.append(note)
-    return {"name": f"episode {number}, reward {reward:.3f}", "times": times, "robots": [robot],
+    name = f"episode {row['episode']}, reward {row['reward']:.3f}{doubts_of(row, kick)}"
+    return {"number": row["episode"], "name": name, "times": times, "robots": [robot],
             "ball": [ball.get(time_ms) for time_ms in times], "notes": notes, "marks": []}
 
 
 def kicks(directory):
-    summary = summary_of(os.path.join(directory, "kick.json"))
-    logged = kicks_of(os.path.join(directory, "bus.log"))
-    rewards = rewards_of(os.path.join(directory, "kick.json"), len(logged))
-    worst_first = sorted(range(len(rewards)), key=lambda episode: rewards[episode])
-    columns = ["episode", "reward", "contact", "contact_decision", "v_contact_m_s", "ball_speed_m_s", "kicked"]
-    rows = [[rounded(summary["rows"][episode].get(column)) for column in columns] for episode in worst_first]
-    facts = [[name, rounded(summary[name])] for name in
-             ("episodes", "mean_reward", "reward_ci95", "contact_rate", "kick_rate", "seed", "plant", "policy", "git_hash")]
-    return {"kind": "kicks", "title": f"{len(rewards)} kicks: {directory}", "facts": facts,
-            "replays": [kick_replay(number, kick, reward)
-                        for number, (kick, reward) in enumerate(zip(logged, rewards))],
+    file = os.path.join(directory, "kick.json")
+    summary, logged = summary_of(file), kicks_of(os.path.join(directory, "bus.log"))
+    known = rows_of(file, len(logged))
+    columns = list(ROW)
+    rows = [[rounded(row[column]) for column in columns] for row in sorted(known, key=lambda row: row["reward"])]
+    undriven = [row["episode"] for row in known if not row["driven"]]
+    if sorted(summary.take("undriven_episodes", WHOLES)) != undriven:
+        summary.fail("undriven_episodes are not those whose rows say so")
+    notices = []
+    if undriven:
+        notices.append(f"{len(undriven)} of {len(known)} episodes were not driven all along, and are no result of a policy, nor "
+                       f"are means with them: {listed(undriven)}")
+    notices += [f"bus.log ends in episode {row['episode']}: what is shown of it is not all"
+                for kick, row in zip(logged, known) if kick.is_cut]
+    facts = [[name, rounded(value)] for name, value in taken(summary, KICK_FACTS).items()]
+    return {"kind": "kicks", "title": f"{len(known)} kicks: {directory}", "notices": notices, "facts": facts,
+            "replays": [kick_replay(kick, row) for kick, row in zip(logged, known)],
             "tables": [{"name": "episodes, worst first", "columns": columns, "rows": rows, "replay": 0}]}
 
 
@@ -80,48 +103,73 @@ def match_replay(directory, events, name):
     for _, ball in seen:
         balls.update(ball)
     times = sorted(balls)
+    if not times:
+        raise LogError(f"{directory}/bus: tells no place of the ball; {OTHER_BUILD}")
     robots = [[[round(value) for value in places[time]] if time in places else None for time in times]
               for places, _ in seen]
-    marks = [[event["t_sim_ns"] // 1_000_000,
-              f"{event['event']} ({event['cause']})" + (f", {event['team']}" if event["team"] else "")
-              + f", {event['score'][0]}:{event['score'][1]}"] for event in events]
-    return {"name": name, "times": times, "robots": robots, "ball": [[round(value) for value in balls[time]] for time in times],
-            "notes": [f"bus/vcan0.log.gz to vcan9.log.gz at ({time / 1000:017.6f})" for time in times], "marks": marks}
+    return {"number": 0, "name": name, "times": times, "robots": robots,
+            "ball": [[round(value) for value in balls[time]] for time in times],
+            "notes": [f"bus/vcan0.log.gz to vcan9.log.gz at ({time / 1000:017.6f})" for time in times],
+            "marks": [mark_of(event) for event in events]}
+
+
+def mark_of(event):
+    team, (red, blue) = event.take("team", TEXT_OR_NULL), event.take("score", SCORE)
+    return [event.take("t_sim_ns", WHOLE) // 1_000_000,
+            f"{event.take('event', TEXT)} ({event.take('cause', TEXT)})" + (f", {team}" if team else "") + f", {red}:{blue}"]
+
+
+def undriven_robots(report):
+    seconds = [robot.take("undriven_s", NUMBER) for robot in report.parts("robots")]
+    told = [f"robot {number} {value:.1f} s" for number, value in enumerate(seconds) if value > 0]
+    return [f"not driven while they might play: {', '.join(told)}"] if told else []
 
 
 def match(directory):
-    report = load(directory, "match.json", json.load)
-    events = load(directory, "events.jsonl", lambda stream: [json.loads(line) for line in stream][1:])
-    score = report["result"]["score"]
-    title = f"{report['teams'][0]} {score[0]} : {score[1]} {report['teams'][1]}"
-    facts = [[name, report[name]] for name in ("complete", "seed", "plant", "rule_set", "state_hash", "git_hash")]
-    facts += [[name, rounded(value)] for name, value in report["flow"].items() if not isinstance(value, dict)]
-    rows = [[f"{part}: {name}", rounded(value), rounded(report["blue"][part][name])]
-            for part, values in report["red"].items() if isinstance(values, dict)
-            for name, value in values.items() if not isinstance(value, dict)]
-    return {"kind": "match", "title": f"{title}: {directory}", "facts": facts,
+    report = load(os.path.join(directory, "match.json"), WHOLE_RUN)
+    _, *events = load_lines(os.path.join(directory, "events.jsonl"), WHOLE_RUN)
+    teams, score = report.take("teams", NAMES), report.part("result").take("score", SCORE)
+    title = f"{teams[0]} {score[0]} : {score[1]} {teams[1]}"
+    facts = taken(report, MATCH_FACTS)
+    notices = [] if facts["complete"] else ["the match was interrupted: its score is no result"]
+    red, blue = report.part("red"), report.part("blue")
+    rows = [[f"{part}: {name}", rounded(value), rounded(blue.part(part).take(name, NUMBER_OR_NULL))]
+            for part in red.names(OBJECT) for name, value in figures(red.part(part)).items()]
+    return {"kind": "match", "title": f"{title}: {directory}", "notices": notices + undriven_robots(report),
+            "facts": [[name, rounded(value)] for name, value in {**facts, **figures(report.part("flow"))}.items()],
             "replays": [match_replay(directory, events, title)],
             "tables": [{"name": "what the teams did", "columns": ["figure", "red", "blue"], "rows": rows, "replay": None}]}
 
 
 def league(directory):
-    table = load(directory, "league.json", json.load)
-    columns = ["team", "played", "won", "drawn", "lost", "points", "goal_difference", "goal_difference_half_width"]
-    pairs = ["first", "second", "played", "won", "drawn", "lost", "goal_difference", "goal_difference_half_width"]
-    return {"kind": "league", "title": f"league of {len(table['teams'])}: {directory}",
-            "facts": [[name, table[name]] for name in ("matches", "incomplete", "git_hash")], "replays": [],
-            "tables": [{"name": name, "columns": names, "replay": None,
-                        "rows": [[rounded(row.get(column)) for column in names] for row in table[key]]}
-                       for name, key, names in (("table", "teams", columns), ("pairings", "pairings", pairs))]}
+    table = load(os.path.join(directory, "league.json"), WHOLE_RUN)
+    facts = taken(table, {"matches": WHOLE, "incomplete": WHOLE, "git_hash": TEXT})
+    notices = [f"{facts['incomplete']} matches were interrupted, and are not in the table"] if facts["incomplete"] else []
+    return {"kind": "league", "title": f"league of {len(table.parts('teams'))}: {directory}", "notices": notices,
+            "facts": [[name, value] for name, value in facts.items()], "replays": [],
+            "tables": [{"name": name, "columns": list(kinds), "replay": None,
+                        "rows": [[rounded(value) for value in taken(row, kinds).values()] for row in table.parts(key)]}
+                       for name, key, kinds in (("table", "teams", TEAM), ("pairings", "pairings", PAIRING))]}
+
+
+def missing_runs(runs, header):
+    numbers = {run["run"] for run in runs}
+    if len(numbers) < len(runs):
+        header.fail("a run stands there twice")
+    if len(numbers) == max(numbers, default=-1) + 1:
+        return []
+    return [f"of the runs up to {max(numbers)}, {max(numbers) + 1 - len(numbers)} are missing: the campaign was stopped, or goes on"]
 
 
 def campaign(directory):
-    header, *runs = load(directory, "runs.jsonl", lambda stream: [json.loads(line) for line in stream])
+    header, *lines = load_lines(os.path.join(directory, "runs.jsonl"), WHOLE_RUN)
+    facts = taken(header, {"campaign": WHOLE, **{name: TEXT_OR_NUMBER for name in header.values if name != "campaign"}})
+    runs = [taken(line, RUN) for line in lines]
     outcomes = collections.Counter((kind.split()[0], run["outcome"]) for run in runs
-                                   for kind in run["faults"].split(", ") if kind)
+                                   for kind in run["faults"].split(", ") if kind.strip())
     violated = [run for run in runs if run["violations"] or run["failure"]]
-    return {"kind": "campaign", "title": f"campaign of {len(runs)} runs: {directory}",
-            "facts": [*([name, value] for name, value in header.items()), ["runs", len(runs)], ["violated", len(violated)]],
+    return {"kind": "campaign", "title": f"campaign of {len(runs)} runs: {directory}", "notices": missing_runs(runs, header),
+            "facts": [*([name, value] for name, value in facts.items()), ["runs", len(runs)], ["violated", len(violated)]],
             "replays": [],
             "tables": [{"name": "violations", "columns": ["run", "faults", "violations", "failure"], "replay": None,
                         "rows": [[run["run"], run["faults"], json.dumps(run["violations"]), run["failure"]]
