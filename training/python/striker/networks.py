@@ -4,6 +4,7 @@
 import json
 import os
 import struct
+import tempfile
 
 import numpy
 
@@ -47,17 +48,31 @@ def export(state_dict, path, *, env=None, network=""):
     """
     path = os.fspath(path)
     metadata = {} if env is None else {"configuration": env.configuration}
+    content = safetensors({name: _array(tensor) for name, tensor in state_dict.items()}, metadata)
+    with tempfile.NamedTemporaryFile(suffix=".safetensors") as checked:
+        checked.write(content)
+        checked.flush()
+        try:
+            _native.Network(checked.name, network)
+        except RuntimeError as error:
+            raise RuntimeError(str(error).replace(checked.name, path)) from None
+    _write_whole(path, content)
+
+
+def _write_whole(path, content):
+    """A symbolic link stays one, and what is no regular file is written into as it is."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        with open(path, "wb") as stream:
+            stream.write(content)
+        return
+    path = os.path.realpath(path)
     part = f"{path}.part"
     try:
         with open(part, "wb") as stream:
-            stream.write(safetensors({name: _array(tensor) for name, tensor in state_dict.items()}, metadata))
-        try:
-            _native.Network(part, network)
-        except RuntimeError as error:
-            raise RuntimeError(str(error).replace(part, path)) from None
+            stream.write(content)
         os.replace(part, path)
     finally:
-        if os.path.exists(part):
+        if os.path.isfile(part):
             os.remove(part)
 
 
