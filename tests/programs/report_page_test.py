@@ -75,7 +75,7 @@ class ReportPage(unittest.TestCase):
         self.assertIn("episode 0, reward ", page.split('id="state1">')[1].split("</div>")[0])  # its folder's name hides nothing
 
     def test_rows_in_another_order_are_the_same_report(self):
-        other = self.path("other")
+        other = self.path("rows_reversed")
         os.mkdir(other)
         shutil.copy(f"{self.later}/bus.log", other)
         kicks = json.loads(read(self.later, "kick.json"))
@@ -84,7 +84,7 @@ class ReportPage(unittest.TestCase):
             json.dump(kicks, file)
         for folder in (self.later, other):
             self.assertEqual(run("striker-report", folder, "-o", f"{folder}.html").returncode, 0)
-        self.assertEqual(read(f"{self.later}.html"), read(f"{other}.html").replace(b"other", b"later"))
+        self.assertEqual(read(f"{self.later}.html"), read(f"{other}.html").replace(b"rows_reversed", b"later"))
         kicks["rows"][0]["episode"] = 7
         with open(f"{other}/kick.json", "w", encoding="utf-8") as file:
             json.dump(kicks, file)
