@@ -131,6 +131,9 @@ class ReportInput(unittest.TestCase):
             for reward in (None, True, "words", math.nan, math.inf, [1]):
                 self.write(f"{self.kicks}/kick.json", json.dumps(changed(record, ("rows", 0, "reward"), reward)))
                 self.assertIsNone(self.read(self.kicks, "kick.json"), reward)
+            beyond = json.dumps(changed(record, ("rows", 0, "reward"), "beyond")).replace('"beyond"', "1e999")
+            self.write(f"{self.kicks}/kick.json", beyond)
+            self.assertIsNone(self.read(self.kicks, "kick.json"))
         self.write(f"{self.kicks}/kick.json", json.dumps(record))
 
     def test_any_change_of_a_league(self):
