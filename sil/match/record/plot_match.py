@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 from matplotlib.colors import LogNorm
 from striker_field import draw_field
 from striker_pictures import TEAMS, PlotError, parser_of, run, save
-from striker_records import FLAG, NUMBER, SCORE, TEXT, TEXT_OR_NULL, WHOLE, load, load_lines
+from striker_records import FLAG, NUMBER, SCORE, TEXT, WHOLE, load, load_lines
 
 PROGRAM = "striker-plot-match"
 EVENTS = {"goal": "goal", "ball_out": "ball out", "crowding": "crowding", "deadlock": "deadlock",
