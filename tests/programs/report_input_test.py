@@ -8,6 +8,7 @@ Usage: report_input_test.py BIN   (the folder of the programs)
 
 import copy
 import gzip
+import itertools
 import json
 import math
 import os
@@ -24,6 +25,7 @@ sys.path.insert(0, BIN)
 
 import striker_kinds  # noqa: E402
 import striker_runs  # noqa: E402
+import striker_trainings  # noqa: E402
 from striker_logs import LogError  # noqa: E402
 
 GONE = object()
@@ -36,6 +38,24 @@ FIGURES = {"played": 2, "won": 1, "drawn": 0, "lost": 1, "goal_difference": 0.5,
 LEAGUE = {"matches": 2, "incomplete": 0, "git_hash": "477d13aec4b9",
           "teams": [{"team": "rules", "points": 3, **FIGURES}, {"team": "random", "points": 3, **FIGURES}],
           "pairings": [{"first": "rules", "second": "random", **FIGURES}]}
+MEASURES = {"step_instructions": 4242, "stack_bytes": 512, "dropped_frames": 0}
+FAULTS = {"plan": "built-in", "plant": "servo", "pose": "origin", "bus": "inproc", "seed": 1, "first_episode": 0,
+          "rows": [{"name": "SYNC lost", "faults": "sync_lost", "detected_by": "sync", "detected_ms": 5, "zero_torque_ms": None,
+                    "outcome": "stops", "reward_kept_percent": 12.5, "violations": 1,
+                    "episodes": [{"failure": "it crashed",
+                                  "violations": [{"tick": 4, "invariant": "torque", "text": "too much"}]}]}],
+          "version": "1.0", "git_hash": "477d13aec4b9", "build_type": "Release"}
+EXPERIMENT = {"experiment": "compare", "seeds": 1, "ceiling": 19.5, "paper_best": None,
+              "variants": [{"name": "7", "says": "seven", "episodes": 200}]}
+TABLES = {  # "never" crosses 90 %
+    "summary.csv": "variant,episodes_to_0,episodes_to_50%,episodes_to_90%,best,best_low,best_high,final_1000,final_1000_low,"
+                   "final_1000_high,origin,origin_low,origin_high,anywhere,anywhere_low,anywhere_high\n"
+                   "7,50.0,100.5,201.0,1.0,0.5,1.5,1.0,0.5,1.5,1.0,0.5,1.5,1.0,0.5,1.5\n",
+    "curves.csv": "variant,episode,moving_average,low,high\n7,100,-1.5000,-2.0000,-1.0000\n7,200,2.5000,2.0000,3.0000\n",
+    "learning_curve.csv": "episode,moving_average_250,contact,epsilon,td_error,q\n1,-4.000000,0,1.000000,0,0\n"
+                          "2,-3.500000,1,0.990000,1e-05,-0.25\n",
+    "evaluations.csv": "episode,mean_reward,best\n2,-1.250000,1\n"}
+CELLS = ("", " ", "words", "null", "true", "nan", "inf", "1e999", "0.5,1", "[1]", '"', "-")
 
 
 def run(program, *words):
@@ -95,19 +115,19 @@ class ReportInput(unittest.TestCase):
         with open(file, encoding="utf-8") as stream:
             return stream.read()
 
-    def read(self, folder, file):
-        """The run, or None if it was refused, as it must be."""
+    def read(self, folder, *files):
+        """The run, or None if it was refused, as it must be, for one of the files."""
         try:
             made = striker_kinds.read_run(folder)
         except LogError as error:
-            self.assertTrue(str(error).startswith(f"{folder}/{file}"), error)
+            self.assertTrue(str(error).startswith(tuple(f"{folder}/{file}" for file in files)), error)
             self.assertNotIn("\n", str(error))
             return None
         json.dumps(made, allow_nan=False)
         return made
 
-    def every_change(self, folder, file, record, written, must):
-        """`must`: without their values it is refused."""
+    def every_change(self, folder, file, record, written, must, *others):
+        """`must`: without their values it is refused. `others`: files that may be blamed instead."""
         whole = os.path.join(folder, file)
         before = self.text(whole)
         self.assertIsNotNone(self.read(folder, file))
@@ -115,7 +135,7 @@ class ReportInput(unittest.TestCase):
         for path in places(record):
             for other in OTHERS:
                 self.write(whole, written(changed(record, path, other)))
-                made = self.read(folder, file)
+                made = self.read(folder, file, *others)
                 tried += 1
                 if path in must and other in (GONE, None):
                     self.assertIsNone(made, f"{path}: {other}")
@@ -174,6 +194,81 @@ class ReportInput(unittest.TestCase):
             self.every_change(self.match, "events.jsonl", shown, lines, [("event",), ("score",)])
         for name, text in whole.items():
             self.write(f"{self.match}/{name}", text)
+
+    def test_any_change_of_a_run_on_a_board(self):
+        board = self.folder("board")
+        for name in ("pil", "sil"):
+            shutil.copy(f"{self.kicks}/bus.log", f"{board}/{name}.log")
+            shutil.copy(f"{self.kicks}/kick.json", f"{board}/{name}.json")
+        self.write(f"{board}/measures.json", json.dumps(MEASURES))
+        record = json.loads(self.text(f"{board}/pil.json"))
+        logged = striker_runs.kicks_of(f"{board}/pil.log", at_pictures=True)
+        rows = [("rows", 1, name) for name in ("episode", "reward", "driven")]
+        with mock.patch.object(striker_runs, "kicks_of", lambda *_, **__: logged):
+            self.every_change(board, "measures.json", MEASURES, json.dumps, [(name,) for name in MEASURES])
+            self.every_change(board, "pil.json", record, json.dumps, [("mean_reward",), ("undriven_episodes",), *rows])
+            self.every_change(board, "sil.json", record, json.dumps, [("rows",), ("undriven_episodes",), *rows])
+            self.assertEqual(self.read(board, "pil.json")["notices"], [])
+            self.write(f"{board}/measures.json", json.dumps({**MEASURES, "dropped_frames": 3}))
+            record["rows"][1]["driven"], record["undriven_episodes"] = False, [1]
+            self.write(f"{board}/sil.json", json.dumps(record))
+            undriven, dropped = self.read(board, "pil.json")["notices"]
+        self.assertIn("in one process: 1 of 2 episodes were not driven", undriven)
+        self.assertIn("dropped 3 frames", dropped)
+
+    def test_any_change_of_faults(self):
+        folder = self.folder("faults")
+        self.write(f"{folder}/faults.json", json.dumps(FAULTS))
+        violation = ("rows", 0, "episodes", 0, "violations", 0)
+        must = [("plan",), ("git_hash",), ("rows",), ("rows", 0, "name"), ("rows", 0, "outcome"), ("rows", 0, "episodes"),
+                (*violation[:4], "failure"), (*violation, "tick"), (*violation, "text")]
+        self.assertGreater(self.every_change(folder, "faults.json", FAULTS, json.dumps, must), 400)
+
+    def test_any_change_of_an_experiment(self):
+        folder = self.folder("experiment")
+        self.write(f"{folder}/experiment.json", json.dumps(EXPERIMENT))
+        for name in ("summary.csv", "curves.csv"):
+            self.write(f"{folder}/{name}", TABLES[name])
+        rows = self.read(folder, "experiment.json")["tables"][0]["rows"]
+        self.assertEqual(rows, [["seven", 50, 100, "never", *["1.00 [0.50, 1.50]"] * 4]])
+        must = [("experiment",), ("ceiling",), ("variants",), ("variants", 0, "says"), ("variants", 0, "episodes")]
+        self.every_change(folder, "experiment.json", EXPERIMENT, json.dumps, must, "summary.csv")
+        for name in ("summary.csv", "curves.csv"):
+            self.every_cell(folder, name)
+
+    def test_any_change_of_a_training(self):
+        folder = self.folder("training")
+        for name in ("learning_curve.csv", "evaluations.csv"):
+            self.write(f"{folder}/{name}", TABLES[name])
+        for name in ("learning_curve.csv", "evaluations.csv"):
+            self.every_cell(folder, name)
+        self.write(f"{folder}/evaluations.csv", TABLES["evaluations.csv"].split("\n", maxsplit=1)[0] + "\n")
+        self.assertEqual(self.read(folder, "learning_curve.csv")["tables"], [])
+
+    def folder(self, name):
+        made = os.path.join(self.temporary.name, name)
+        os.mkdir(made)
+        return made
+
+    def every_cell(self, folder, file):
+        """A cell that is asked for and no number is refused, and so are a cut line and a missing column."""
+        text = TABLES[file]
+        header, *lines = [line.split(",") for line in text.split("\n")[:-1]]
+        read = {name for kinds in (striker_trainings.CURVE, striker_trainings.EVALUATION, striker_trainings.SUMMARY,
+                                   striker_trainings.POINT) for name in kinds}
+        for row, column in itertools.product(range(len(lines)), range(len(header))):
+            for cell in CELLS:
+                changed_lines = copy.deepcopy(lines)
+                changed_lines[row][column] = cell
+                self.write(f"{folder}/{file}", "".join(f"{','.join(line)}\n" for line in [header, *changed_lines]))
+                made = self.read(folder, file)
+                if header[column] in read:
+                    self.assertIsNone(made, f"{header[column]}: {cell}")
+        for bad in (text[:-1], text[:-4], text.replace(header[1], "x", 1), "\n", text.replace("\n", ",\n", 1)):
+            self.write(f"{folder}/{file}", bad)
+            self.assertIsNone(self.read(folder, file), bad)
+        self.write(f"{folder}/{file}", text)
+        self.assertIsNotNone(self.read(folder, file))
 
     def test_the_program_says_it_in_a_line_and_ends_with_2(self):
         self.write(f"{self.league}/league.json", "{}")

@@ -123,7 +123,11 @@ def load_table(file, way_out, kinds, least=1):
     if text and not text.endswith("\n"):
         raise LogError(f"{file}: its last line is cut; make the run again")
     try:
-        for number, row in enumerate(csv.DictReader(text.splitlines(), strict=True), 2):
+        reader = csv.DictReader(text.splitlines(), strict=True)
+        absent = [name for name in kinds if name not in (reader.fieldnames or [])]
+        if absent:
+            raise LogError(f"{file}: has no column {absent[0]}; make the run again")
+        for number, row in enumerate(reader, 2):
             record = Record(file, row, f"line {number}: ")
             if None in row or None in row.values():
                 record.fail(f"line {number} has not as many values as the header")
