@@ -10,7 +10,13 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/striker)
 
 install(TARGETS ${libraries} EXPORT striker ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${folders} DESTINATION include/striker/firmware FILES_MATCHING PATTERN "*.hpp")
-install(FILES can/striker.dbc ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/striker)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/striker)
+# A build whose identifiers are moved has a DBC of its own, which needs a host to be printed on: none is better than a wrong one.
+if(STRIKER_CAN_BASE EQUAL 0)
+  install(FILES can/striker.dbc DESTINATION share/striker)
+elseif(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  install(FILES ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/striker.dbc DESTINATION share/striker)
+endif()
 install(EXPORT striker FILE striker-config.cmake NAMESPACE striker:: DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/striker-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)

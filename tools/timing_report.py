@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What tools/timing-test makes of its runs: figures, the table side by side, and the plots."""
 
+import io
 import os
 import statistics
+import sys
+
+sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), "firmware", "host"))
+
+from striker_files import write_whole  # noqa: E402
 
 PERIOD_US = 1000
 LIMIT = 1.2
@@ -81,6 +87,7 @@ def draw(path, title, label, series):
         axes.legend()
     figure.suptitle(title)
     for kind in ("svg", "png"):
-        figure.savefig(f"{path}.{kind}.part", format=kind, dpi=120, metadata={"Date": None} if kind == "svg" else None)
-        os.replace(f"{path}.{kind}.part", f"{path}.{kind}")
+        picture = io.BytesIO()
+        figure.savefig(picture, format=kind, dpi=120, metadata={"Date": None} if kind == "svg" else None)
+        write_whole(f"{path}.{kind}", picture.getvalue(), b"<svg" if kind == "svg" else b"PNG")
     pyplot.close(figure)

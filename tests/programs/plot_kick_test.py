@@ -67,7 +67,7 @@ class PlotKick(unittest.TestCase):
 
     def test_without_rewards_too_and_another_episode(self):
         first = self.draw("first", self.log, "--episode", "0")["kick.svg"]
-        self.assertIn(b"episode 0", first)
+        self.assertIn(b"kick 0 of the log", first)
         self.assertNotEqual(first, self.draw("second", self.log, "--episode", "1")["kick.svg"])
 
     def test_what_it_cannot_draw_is_said_in_a_line(self):

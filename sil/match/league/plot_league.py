@@ -9,27 +9,27 @@ intervals) and pairings (each two teams' goal difference, and red minus blue of 
 The same league gives the same bytes.
 """
 
-import json
 import os
 
 import matplotlib.pyplot as plt
 from striker_pictures import BLUE, PlotError, parser_of, run, save
+from striker_records import NUMBER_OR_NULL, TEXT, WHOLE, load
 
 PROGRAM = "striker-plot-league"
+MEAN = {"goal_difference": NUMBER_OR_NULL, "goal_difference_half_width": NUMBER_OR_NULL}
+PARTS = {"teams": {"team": TEXT, "points": WHOLE}, "pairings": {"first": TEXT, "second": TEXT}, "mirrors": {"team": TEXT}}
 
 
 def read(directory):
+    """What is drawn of the table: its matches, and of each of PARTS the rows."""
     file = os.path.join(directory, "league.json")
-    try:
-        with open(file, encoding="utf-8") as stream:
-            league = json.load(stream)
-        if not league["teams"]:
-            raise PlotError(f"{file}: no match was played to its end; go on with the league")
-        return league
-    except OSError as error:
-        raise PlotError(f"{file}: {error.strerror}; give the directory of a league") from error
-    except (ValueError, KeyError, TypeError) as error:
-        raise PlotError(f"{file}: is no league's table ({error})") from error
+    table = load(file, "give the directory of a league")
+    league = {"matches": table.take("matches", WHOLE), "incomplete": table.take("incomplete", WHOLE)}
+    for part, kinds in PARTS.items():
+        league[part] = [{name: row.take(name, kind) for name, kind in {**kinds, **MEAN}.items()} for row in table.parts(part)]
+    if not league["teams"]:
+        raise PlotError(f"{file}: no match was played to its end; go on with the league")
+    return league
 
 
 def draw_differences(axes, rows, names):
@@ -49,7 +49,7 @@ def table(league, directory, command):
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 0.45 * len(teams) + 1.6), sharey=True, layout="constrained")
     left.barh(range(len(teams)), [team["points"] for team in teams], color=BLUE)
     left.set_xlabel("points")
-    left.set_title(f"{league['matches']} matches")
+    left.set_title(f"{league['matches']} matches" + (f"; {league['incomplete']} more were interrupted" if league["incomplete"] else ""))
     draw_differences(right, teams, [team["team"] for team in teams])
     right.set_title("means over pairs with 95 % intervals")
     save(figure, directory, "table", command)

@@ -10,38 +10,68 @@ red's own frame: red plays to the right, in both halves. The same records give t
 """
 
 import csv
-import json
+import math
 import os
 
 import matplotlib.pyplot as plt
 from matplotlib.colors import LogNorm
 from striker_field import draw_field
 from striker_pictures import TEAMS, PlotError, parser_of, run, save
+from striker_records import FLAG, NUMBER, SCORE, TEXT, WHOLE, load, load_lines
 
 PROGRAM = "striker-plot-match"
 EVENTS = {"goal": "goal", "ball_out": "ball out", "crowding": "crowding", "deadlock": "deadlock",
           "sent_out": "sent out", "sent_home": "sent home", "returned": "returned"}
+WAY_OUT = "give the directory of a match"
+TEAM = lambda value: value is None or value in TEAMS, "neither red nor blue, and not null"  # noqa: E731
 
 
-def read(directory, name, parse):
-    file = os.path.join(directory, name)
+def report_of(directory):
+    report = load(os.path.join(directory, "match.json"), WAY_OUT)
+    return {"complete": report.take("complete", FLAG), "score": report.part("result").take("score", SCORE),
+            "sim_s": report.part("flow").take("sim_s", NUMBER),
+            "names": {colour: report.part(colour).take("name", TEXT) for colour in TEAMS}}
+
+
+def is_place(value):
+    return isinstance(value, list) and len(value) == 2 and all(map(NUMBER[0], value))
+
+
+def event_of(line):
+    event = {name: line.take(name, kind) for name, kind in
+             (("event", TEXT), ("team", TEAM), ("half", WHOLE), ("t_sim_ns", WHOLE), ("score", SCORE))}
+    if event["event"] == "goal":
+        event["exit_m"] = line.take("exit_m", (is_place, "no place"))
+    return event
+
+
+def frames_of(directory):
+    file = os.path.join(directory, "frames.csv")
     try:
         with open(file, encoding="utf-8", newline="") as stream:
-            return parse(stream)
+            return columns_of(stream)
     except OSError as error:
-        raise PlotError(f"{file}: {error.strerror}; give the directory of a match") from error
-    except (ValueError, KeyError) as error:
+        raise PlotError(f"{file}: {error.strerror}; {WAY_OUT}") from error
+    except (ValueError, KeyError, TypeError) as error:
         raise PlotError(f"{file}: cannot be read ({error}); play the match again") from error
 
 
-def frames_of(stream):
+def number_of(text):
+    if not math.isfinite(float(text)):
+        raise ValueError(f"{text} is no number")
+    return float(text)
+
+
+def columns_of(stream):
     rows = list(csv.DictReader(stream))
     if not rows:
         raise ValueError("it has no frames")
-    columns = [name for name in rows[0] if name.startswith("ball_pos") or "_cur_pos_" in name]
+    robots = [(f"robot_{robot}", suffix) for suffix in ("", "_opp") for robot in range(5)]
+    places = [f"{robot}_cur_pos{suffix}_{part}" for robot, suffix in robots for part in (0, 1)] + ["ball_pos_0", "ball_pos_1"]
     return {"frame": [int(row["frame"]) for row in rows],
-            "active": {name: [row[name] == "True" for row in rows] for name in rows[0] if "_active" in name},
-            **{name: [float(row[name]) for row in rows] for name in columns}}
+            "active": {name: [{"True": True, "False": False}[row[name]] for row in rows]
+                       for name in (f"{robot}_active{suffix}" for robot, suffix in robots)},
+            **{name: [number_of(row[name]) for row in rows] for name in places}}
 
 
 def positions(frames, report, directory, command):
@@ -60,7 +90,7 @@ def positions(frames, report, directory, command):
                                          norm=LogNorm())
             figure.colorbar(image, ax=axes, label="frames of its five robots")
         draw_field(axes)
-        axes.set_title(f"{colour}: {report[colour]['name']}")
+        axes.set_title(f"{colour}: {report['names'][colour]}")
     save(figure, directory, "positions", command)
 
 
@@ -78,7 +108,7 @@ def ball(frames, events, report, directory, command):
         goals = [event for event in events if event["event"] == "goal" and event["team"] == colour]
         places = [(event["exit_m"], 1 if event["half"] == 1 else -1) for event in goals]
         axes.plot([side * exit_m[0] for exit_m, side in places], [side * exit_m[1] for exit_m, side in places], "o",
-                  color=TEAMS[colour], label=f"goals of {report[colour]['name']} ({colour}): {len(goals)}")
+                  color=TEAMS[colour], label=f"goals of {report['names'][colour]} ({colour}): {len(goals)}")
     axes.legend(loc="upper center")
     axes.set_title("path of the ball")
     save(figure, directory, "ball", command)
@@ -86,12 +116,12 @@ def ball(frames, events, report, directory, command):
 
 def timeline(events, report, directory, command):
     figure, (above, below) = plt.subplots(2, 1, figsize=(12, 6), sharex=True, layout="constrained")
-    end_s = report["flow"]["sim_s"]
+    end_s = report["sim_s"]
     for index, colour in enumerate(TEAMS):
         goals = [event for event in events if event["event"] == "goal" and event["team"] == colour]
         times_s = [0.0, *(event["t_sim_ns"] / 1e9 for event in goals), end_s]
-        scores = [0, *(event["score"][index] for event in goals), report["result"]["score"][index]]
-        above.step(times_s, scores, where="post", color=TEAMS[colour], label=f"{report[colour]['name']} ({colour})")
+        scores = [0, *(event["score"][index] for event in goals), report["score"][index]]
+        above.step(times_s, scores, where="post", color=TEAMS[colour], label=f"{report['names'][colour]} ({colour})")
     for event in events:
         if event["event"] in EVENTS:
             row = list(EVENTS).index(event["event"]) + {"red": -0.12, "blue": 0.12, None: 0.0}[event["team"]]
@@ -99,8 +129,8 @@ def timeline(events, report, directory, command):
         if event["event"] == "half_over":
             for axes in (above, below):
                 axes.axvline(event["t_sim_ns"] / 1e9, color="black", linewidth=0.7, linestyle=":")
-    score = report["result"]["score"]
-    above.set_title(f"{report['red']['name']} {score[0]} : {score[1]} {report['blue']['name']}"
+    score = report["score"]
+    above.set_title(f"{report['names']['red']} {score[0]} : {score[1]} {report['names']['blue']}"
                     + ("" if report["complete"] else " (interrupted)"))
     above.set_ylabel("goals")
     above.yaxis.get_major_locator().set_params(integer=True)
@@ -113,9 +143,9 @@ def timeline(events, report, directory, command):
 
 
 def draw(options, directory, command):
-    report = read(options.match, "match.json", json.load)
-    events = read(options.match, "events.jsonl", lambda stream: [json.loads(line) for line in stream][1:])
-    frames = read(options.match, "frames.csv", frames_of)
+    report, frames = report_of(options.match), frames_of(options.match)
+    _, *events = load_lines(os.path.join(options.match, "events.jsonl"), WAY_OUT)
+    events = [event_of(line) for line in events]
     positions(frames, report, directory, command)
     ball(frames, events, report, directory, command)
     timeline(events, report, directory, command)

@@ -10,6 +10,7 @@ match's first goal that was no own goal, or before its end. Places are what the 
 50 ms. The same runs give the same bytes.
 """
 
+import io
 import json
 import os
 
@@ -17,7 +18,8 @@ import matplotlib.pyplot as plt
 import numpy
 from PIL import Image
 from striker_field import BALL_RADIUS_M, ROBOT_SIDE_M, ball_patch, draw_field, robot_patch
-from striker_logs import LogError, kicks_of, places_of, rows_of
+from striker_files import write_whole
+from striker_logs import LogError, doubts_of, kicks_of, places_of, rows_of
 from striker_pictures import BLUE, ORANGE, TEAMS, PlotError, parser_of, run
 
 PROGRAM = "striker-animate"
@@ -52,7 +54,8 @@ def chosen_kicks(directory):
     for name, episode in (("best", by_reward[0]), ("middle", by_reward[len(kicks) // 2]), ("worst", by_reward[-1])):
         path, contact = paths_of_kick(kicks[episode]), rows[episode].get("contact_decision")
         end = len(path) if contact is None else contact + AFTER_CONTACT_FRAMES
-        chosen.append((f"{name} of {len(kicks)} kicks: reward {rows[episode]['reward']:.1f}", path[:end]))
+        doubts = doubts_of(rows[episode], kicks[episode])
+        chosen.append((f"{name} of {len(kicks)} kicks: reward {rows[episode]['reward']:.1f}{doubts}", path[:end]))
     return chosen
 
 
@@ -171,16 +174,10 @@ def draw(options, directory, command):
         raise PlotError(error) from error
     first, *others = differences(pictures)
     os.makedirs(directory, exist_ok=True)
-    target = os.path.join(directory, "striker.gif")
-    part = f"{target}.part"
-    try:
-        first.save(part, format="GIF", save_all=True, append_images=others, duration=FRAME_MS, loop=0, disposal=1,
-                   transparency=COLOURS, optimize=False, comment=command.encode())
-        os.replace(part, target)
-    except OSError:
-        if os.path.exists(part):
-            os.remove(part)
-        raise
+    target, animation = os.path.join(directory, "striker.gif"), io.BytesIO()
+    first.save(animation, format="GIF", save_all=True, append_images=others, duration=FRAME_MS, loop=0, disposal=1,
+               transparency=COLOURS, optimize=False, comment=command.encode())
+    write_whole(target, animation.getvalue(), b"GIF8")
     print(target)
 
 

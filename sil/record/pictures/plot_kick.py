@@ -6,7 +6,7 @@ Usage: striker-plot-kick BUS.log [--json KICK.json] [--episode N] -o DIR
 
 Reads a candump log as 'striker-sil kick --log' writes it, by the messages of striker.dbc, and writes into DIR:
   paths  where robot and ball went, an episode a panel: the first twelve, or with the rewards of --json the six best and
-         the six worst
+         the six worst; named by the numbers of --json, else by their place in the log, from 0
   kick   one episode (--episode, else the best or the first): the field from above, set-points beside measured rim
          speeds, torques, and at each decision the Q values of its action and of the next best one
 Places are the camera's pictures. The same log gives the same bytes.
@@ -16,7 +16,7 @@ import math
 
 import matplotlib.pyplot as plt
 from striker_field import ball_patch, robot_patch
-from striker_logs import LogError, kicks_of, rewards_of
+from striker_logs import doubts_of, kicks_of, rows_of
 from striker_pictures import BLUE, GREEN, GREY, ORANGE, VERMILION, PlotError, parser_of, run, save
 
 PROGRAM = "striker-plot-kick"
@@ -32,24 +32,30 @@ def draw_paths(axes, kick):
     axes.set_aspect("equal", adjustable="datalim")
 
 
-def panels_of(count, rewards):
-    if rewards is None:
+def panels_of(count, rows):
+    if rows is None:
         return list(range(min(count, MOST_PANELS)))
-    by_reward = sorted(range(count), key=lambda episode: -rewards[episode])
+    by_reward = sorted(range(count), key=lambda place: -rows[place]["reward"])
     if count <= MOST_PANELS:
         return by_reward
     return by_reward[:MOST_PANELS // 2] + by_reward[-(MOST_PANELS // 2):]
 
 
-def paths(kicks, rewards, directory, command):
-    chosen = panels_of(len(kicks), rewards)
+def title_of(place, kicks, rows, between):
+    row = None if rows is None else rows[place]
+    known = f"kick {place} of the log" if row is None else f"episode {row['episode']}{between} reward {row['reward']:.2f}"
+    return known + doubts_of(row, kicks[place])
+
+
+def paths(kicks, rows, directory, command):
+    chosen = panels_of(len(kicks), rows)
     columns = min(4, len(chosen))
-    rows = math.ceil(len(chosen) / columns)
-    figure, panels = plt.subplots(rows, columns, figsize=(3.2 * columns, 2.9 * rows + 0.3), squeeze=False,
+    lines = math.ceil(len(chosen) / columns)
+    figure, panels = plt.subplots(lines, columns, figsize=(3.2 * columns, 2.9 * lines + 0.3), squeeze=False,
                                   layout="constrained")
-    for axes, episode in zip(panels.flat, chosen):
-        draw_paths(axes, kicks[episode])
-        axes.set_title(f"episode {episode}" + (f": reward {rewards[episode]:.2f}" if rewards else ""))
+    for axes, place in zip(panels.flat, chosen):
+        draw_paths(axes, kicks[place])
+        axes.set_title(title_of(place, kicks, rows, ":").replace(", ", ",\n"))
         axes.set_xlabel("x, m")
         axes.set_ylabel("y, m")
     for axes in list(panels.flat)[len(chosen):]:
@@ -77,6 +83,8 @@ def one_kick(kick, title, directory, command):
         plot_wheels(speed, set_points, side, colour, ":", f"{name}, set-point")
         plot_wheels(speed, kick.wheels, side, colour, "-", f"{name}, measured")
         plot_wheels(torque, torques, side, colour, "-", name)
+    if not kick.commands and not kick.wheels:
+        speed.set_title("drives of another make: their frames are not drawn")
     speed.set_ylabel("rim speed, m/s")
     torque.set_ylabel("torque, mNm")
     times_s = [row[0] for row in kick.decisions]
@@ -90,27 +98,29 @@ def one_kick(kick, title, directory, command):
     save(figure, directory, "kick", command)
 
 
+def place_of(options, count, rows):
+    """The kick to draw in detail."""
+    numbers = list(range(count)) if rows is None else [row["episode"] for row in rows]
+    if options.episode is None:
+        return 0 if rows is None else max(range(count), key=lambda place: rows[place]["reward"])
+    if options.episode not in numbers:
+        raise PlotError(f"--episode {options.episode}: the log has the episodes {numbers[0]} to {numbers[-1]}")
+    return numbers.index(options.episode)
+
+
 def draw(options, directory, command):
-    try:
-        kicks = kicks_of(options.log)
-        rewards = None if options.json is None else rewards_of(options.json, len(kicks))
-    except LogError as error:
-        raise PlotError(error) from error
-    episode = options.episode
-    if episode is None:
-        episode = 0 if rewards is None else max(range(len(kicks)), key=lambda place: rewards[place])
-    if not 0 <= episode < len(kicks):
-        raise PlotError(f"--episode {episode}: the log has the episodes 0 to {len(kicks) - 1}")
-    title = f"episode {episode}" + (f", reward {rewards[episode]:.2f}" if rewards else "")
-    paths(kicks, rewards, directory, command)
-    one_kick(kicks[episode], title, directory, command)
+    kicks = kicks_of(options.log)
+    rows = None if options.json is None else rows_of(options.json, len(kicks))
+    place = place_of(options, len(kicks), rows)
+    paths(kicks, rows, directory, command)
+    one_kick(kicks[place], title_of(place, kicks, rows, ","), directory, command)
 
 
 def main():
     parser = parser_of(PROGRAM, __doc__)
     parser.add_argument("log", metavar="BUS.log", help="a candump log of kicks")
     parser.add_argument("--json", metavar="KICK.json", help="what striker-sil kick --json wrote of the same run")
-    parser.add_argument("--episode", type=int, metavar="N", help="the one to draw in detail")
+    parser.add_argument("--episode", type=int, metavar="N", help="the one to draw in detail: its number in --json, else its place in the log")
     run(PROGRAM, draw, parser.parse_args())
 
 

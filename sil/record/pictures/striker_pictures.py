@@ -7,6 +7,7 @@ white, so that a picture reads the same on a dark page.
 """
 
 import argparse
+import io
 import os
 import subprocess
 import sys
@@ -15,6 +16,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from striker_files import write_whole  # noqa: E402
+from striker_records import LogError  # noqa: E402
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 
@@ -42,17 +45,12 @@ class PlotError(Exception):
 def save(figure, directory, name, command):
     """Writes NAME.svg and NAME.png, each whole or not at all, and says so. The folder is made if there is none."""
     os.makedirs(directory, exist_ok=True)
-    kinds = {"svg": {"Date": None, "Description": command}, "png": {"Software": None, "Description": command}}
-    for kind, metadata in kinds.items():
+    kinds = {"svg": ({"Date": None, "Description": command}, b"<svg"), "png": ({"Software": None, "Description": command}, b"PNG")}
+    for kind, (metadata, mark) in kinds.items():
         target = os.path.join(directory, f"{name}.{kind}")
-        part = f"{target}.part"
-        try:
-            figure.savefig(part, format=kind, metadata=metadata, dpi=100)
-            os.replace(part, target)
-        except OSError:
-            if os.path.exists(part):
-                os.remove(part)
-            raise
+        picture = io.BytesIO()
+        figure.savefig(picture, format=kind, metadata=metadata, dpi=100)
+        write_whole(target, picture.getvalue(), mark)
         print(target)
     plt.close(figure)
 
@@ -79,9 +77,10 @@ def run(program, draw, options):
     words = [os.path.basename(str(word)) for word in sys.argv[1:]]
     kept = [word for place, word in enumerate(words)
             if word not in ("-o", "--out") and (place == 0 or words[place - 1] not in ("-o", "--out"))]
+    sys.stdout.reconfigure(errors="backslashreplace")
     try:
         draw(options, options.out, " ".join([program, *kept]))
-    except PlotError as error:
+    except (PlotError, LogError) as error:
         refuse(program, error)
     except OSError as error:
         refuse(program, f"{error.filename or options.out}: {error.strerror}; give a folder that can be written with -o")

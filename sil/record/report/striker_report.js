@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws `runs` (striker_runs.py), with striker_field.js before it. "#run=0&replay=3&time=1200" in the address opens a
-// moment; moving a slider writes it.
+// moment of the replay with that number; moving a slider writes it.
 "use strict";
 
 const runs = JSON.parse(document.getElementById("data").textContent);
@@ -42,12 +42,16 @@ class Replay {
     this.marks.parentElement.className = "scroll";
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value), true));
     this.button.addEventListener("click", () => this.togglePlay());
-    this.choose(0);
+    this.choose(this.replay.number);
+  }
+
+  has(which) {
+    return this.run.replays.some((replay) => replay.number === which);
   }
 
   choose(which) {
     this.which = which;
-    this.replay = this.run.replays[which];
+    this.replay = this.run.replays.find((replay) => replay.number === which);
     this.slider.min = 0;
     this.slider.max = Math.max(0, this.replay.times.length - 1);
     this.marks.replaceChildren();
@@ -172,6 +176,9 @@ function addTable(table, view, parent) {
 const views = runs.map((run, number) => {
   const section = element("section", undefined, document.getElementById("runs"));
   element("h2", run.title, section);
+  run.notices.forEach((notice) => {
+    element("p", notice, section).className = "notice";
+  });
   const facts = element("ul", undefined, section);
   facts.className = "facts";
   run.facts.forEach(([name, value]) => element("li", `${name}: ${value}`, facts));
@@ -187,8 +194,8 @@ const views = runs.map((run, number) => {
 function openMoment() {
   const wanted = new URLSearchParams(location.hash.slice(1));
   const view = views[Number(wanted.get("run") ?? -1)];
-  const which = Number(wanted.get("replay") ?? 0);
-  if (view && view.run.replays[which]) {
+  const which = Number(wanted.get("replay") ?? view?.which);
+  if (view && view.has(which)) {
     view.choose(which);
     view.showTime(Number(wanted.get("time") ?? 0));
   }

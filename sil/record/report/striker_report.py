@@ -15,7 +15,8 @@ Each RUN is a directory that a program of Striker wrote:
   of a training learning_curve.csv and evaluations.csv of striker-train
   of an experiment  experiment.json and tables of striker-experiment
 
-The same runs give the same bytes.
+What is no whole result (not driven all along, interrupted, cut) is said above the run. The same runs give the same bytes.
+REPORT.html may be there if it is an earlier report.
 """
 
 import argparse
@@ -24,27 +25,12 @@ import os
 import subprocess
 import sys
 
+from striker_files import write_whole
+from striker_kinds import read_run
 from striker_logs import LogError
-import striker_runs
-import striker_trainings
 
 HERE = os.path.dirname(os.path.realpath(__file__))
-
-# A directory's kind is told by the first of these files that it has.
-KNOWN = {"match.json": striker_runs.match, "pil.json": striker_runs.pil, "kick.json": striker_runs.kicks,
-         "league.json": striker_runs.league, "runs.jsonl": striker_runs.campaign, "faults.json": striker_runs.faults,
-         "experiment.json": striker_trainings.experiment, "learning_curve.csv": striker_trainings.training}
-
-
-def read_run(directory):
-    for name, read in KNOWN.items():
-        if os.path.exists(os.path.join(directory, name)):
-            try:
-                return read(directory)
-            except (KeyError, TypeError, ValueError) as error:
-                raise LogError(f"{os.path.join(directory, name)}: is not what its program writes ({error!r}); make the run again"
-                               ) from error
-    raise LogError(f"{directory}: is no run; give a directory with one of {', '.join(KNOWN)}")
+MARK = b"<title>Striker report</title>"  # of every page, so that -o replaces nothing else
 
 
 def text_of(name):
@@ -54,21 +40,9 @@ def text_of(name):
 
 def page_of(runs):
     page, *scripts = map(text_of, ("striker_report.html", "striker_field.js", "striker_charts.js", "striker_report.js"))
-    # "</" would end the script's element, whatever stands around it.
-    data = json.dumps(runs, separators=(",", ":")).replace("</", "<\\/")
+    # HTML must find nothing in it: "</script" would end the script's element, and "<!--<script" hide its end.
+    data = json.dumps(runs, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     return page.replace("/*SCRIPT*/", "\n".join(scripts)).replace("/*DATA*/", data)
-
-
-def write_whole(file, text):
-    part = f"{file}.part"
-    try:
-        with open(part, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        os.replace(part, file)
-    except OSError:
-        if os.path.exists(part):
-            os.remove(part)
-        raise
 
 
 class ShowVersion(argparse.Action):
@@ -87,12 +61,13 @@ def main():
     parser.add_argument("-o", "--out", required=True, metavar="REPORT.html")
     parser.add_argument("--version", action=ShowVersion, nargs=0, help="show the build's version and exit")
     options = parser.parse_args()
+    sys.stdout.reconfigure(errors="backslashreplace")
     try:
         text = page_of([read_run(run) for run in options.run])
     except LogError as error:
         refuse(error)
     try:
-        write_whole(options.out, text)
+        write_whole(options.out, text.encode(), MARK)
     except OSError as error:
         refuse(f"{options.out}: {error.strerror}; give a file that can be written with -o")
     print(f"{options.out}: {len(options.run)} runs, {len(text.encode()) / 1e6:.2f} MB")

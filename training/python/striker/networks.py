@@ -66,10 +66,11 @@ def export(state_dict, path, *, env=None, network=""):
     if env is not None and not hasattr(env, "configuration"):
         raise TypeError(f"env {checks.shown(env)}: it must be a KickEnv or VectorKickEnv")
     metadata = {} if env is None else {"configuration": env.configuration}
+    content = safetensors({str(name): _array(name, tensor) for name, tensor in state_dict.items()}, metadata)
     part = f"{path}.part"
     try:
         with open(part, "wb") as stream:
-            stream.write(safetensors({str(name): _array(name, tensor) for name, tensor in state_dict.items()}, metadata))
+            stream.write(content)
         try:
             written = _native.Network(part, str(network))
         except RuntimeError as error:
@@ -79,7 +80,7 @@ def export(state_dict, path, *, env=None, network=""):
                                f"environment {env.inputs} and {len(env.set_points)}")
         os.replace(part, path)
     finally:
-        if os.path.exists(part):
+        if os.path.isfile(part):
             os.remove(part)
 
 
