@@ -81,7 +81,7 @@ MUTATIONS = (
 
 
 def copy_sources(to):
-    for name in ("firmware", "tests", "CMakeLists.txt", "CMakePresets.json"):
+    for name in ("firmware", "tests", "tools", "CMakeLists.txt", "CMakePresets.json"):
         source = os.path.join(ROOT, name)
         (shutil.copytree if os.path.isdir(source) else shutil.copy)(source, os.path.join(to, name))
 

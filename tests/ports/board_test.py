@@ -147,7 +147,8 @@ class Board(unittest.TestCase):
         os.makedirs(folder)
         with open(os.path.join(folder, "board.cmake"), "w", encoding="utf-8"):
             pass
-        self.assert_refused([f"STRIKER_BOARD_DIR={folder}"], f"'{folder}' has a ';' in it", "a path without one")
+        # CMake has made the second part a path by itself before anybody can look.
+        self.assert_refused([f"STRIKER_BOARD_DIR={folder}"], f"'{os.path.dirname(folder)}/my;", "has a ';' in it", "a path without one")
 
     def test_a_wrong_field_is_named_with_its_file(self):
         for changes, told in (
