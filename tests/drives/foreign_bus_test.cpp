@@ -189,7 +189,7 @@ TEST(OdriveOnTheBus, AnErrorIsNotForgottenInItsTick) {
 // One frame of the way to closed loop is lost, whichever: the kick is driven nearly as if it were not, or a fault is told.
 TEST(OdriveOnTheBus, OneLostFrameLeavesNoWheelWithoutTorqueUnsaid) {
   const double undisturbed = DriveRig(can::DriveKind::odrive).play({.episodes = 1}).front().reward;
-  for (const std::uint32_t wanted : {0x018, 0x038, 0x00B, 0x02B, 0x007, 0x027}) {
+  for (const std::uint32_t wanted : {0x018U, 0x038U, 0x00BU, 0x02BU, 0x007U, 0x027U}) {
     bool is_lost = false;
     DriveRig rig =
         disturbed_rig(can::DriveKind::odrive, {.to_drives = [&](const can::Frame& frame, std::uint32_t tick) {

@@ -133,7 +133,7 @@ TEST_F(Campaign, TheFileOfAProcessThatRunsIsRefused) {
     const pid_t child = fork();
     if (child == 0) {
       try {
-        RunFile(at("runs.jsonl"), R"({"a":1})");
+        { const RunFile file(at("runs.jsonl"), R"({"a":1})"); }
         _exit(0);
       } catch (const std::runtime_error& error) {
         _exit(std::string(error.what()).find(std::to_string(getppid())) != std::string::npos ? 1 : 2);

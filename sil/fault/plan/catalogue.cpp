@@ -14,8 +14,8 @@ namespace {
 
 using enum FaultKind;
 
-constexpr std::int32_t from_ms = 300;
-constexpr std::int32_t until_ms = 1500;
+constexpr std::int32_t usual_from_ms = 300;
+constexpr std::int32_t usual_until_ms = 1500;
 constexpr std::int32_t stall_ms = 400;
 
 using Change = std::function<void(Fault&)>;
@@ -24,7 +24,7 @@ class Catalogue {
  public:
   void add(
       const std::string& name, FaultKind kind, const Change& change = [](Fault&) {}) {
-    Fault fault = usual(kind, from_ms, info_of(kind).at_once ? from_ms + 1 : until_ms);
+    Fault fault = usual(kind, usual_from_ms, info_of(kind).at_once ? usual_from_ms + 1 : usual_until_ms);
     change(fault);
     add(name, {fault});
   }
@@ -161,8 +161,8 @@ void add_clock(Catalogue& all) {
 void add_stops(Catalogue& all) {
   all.add("emergency stop", emergency_stop);
   all.add("emergency stop behind 200 frames", emergency_stop, count(200));
-  const Fault late = usual(emergency_stop, from_ms + stall_ms - 50, from_ms + stall_ms - 49);
-  const Fault endless = usual(stall, from_ms, from_ms + stall_ms);
+  const Fault late = usual(emergency_stop, usual_from_ms + stall_ms - 50, usual_from_ms + stall_ms - 49);
+  const Fault endless = usual(stall, usual_from_ms, usual_from_ms + stall_ms);
   Fault bounded = endless;
   bounded.count = 277;  // frames in a Linux socket's queue by default
   all.add("emergency stop in a stall", {late, endless});

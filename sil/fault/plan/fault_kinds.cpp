@@ -13,7 +13,7 @@ using enum FaultPlace;
 
 constexpr ParameterRange always_or_less = {.least = 0.01, .greatest = 1.0, .otherwise = 1.0};
 constexpr MessageParameter any = MessageParameter::any;
-constexpr MessageParameter one = MessageParameter::one;
+constexpr MessageParameter one_message = MessageParameter::one;
 
 constexpr std::array all_kinds = {
     FaultKindInfo{.kind = sync_repeat,
@@ -65,13 +65,13 @@ constexpr std::array all_kinds = {
                   .name = "replay",
                   .place = frames,
                   .does = "in place of the message's frames come the last `count` before the fault, in turn",
-                  .message = one,
+                  .message = one_message,
                   .count = {1, 64, 1}},
     FaultKindInfo{.kind = masquerade,
                   .name = "masquerade",
                   .place = frames,
                   .does = "each of the message's frames comes again under the identifier of another, `as`",
-                  .message = one},
+                  .message = one_message},
     FaultKindInfo{.kind = duplicate,
                   .name = "duplicate",
                   .place = frames,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/match/replay/gzip_reader.hpp"
 
-#define ZLIB_CONST  // what is read is not changed
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -49,7 +48,7 @@ void GzipReader::fail(const char* what) const {
 }
 
 void GzipReader::load() {
-  input_.read(loaded_.data(), loaded_.size());
+  input_.read(loaded_.data(), static_cast<std::streamsize>(loaded_.size()));
   size_ = static_cast<std::size_t>(input_.gcount());
   if (input_.bad()) {
     fail("cannot be read to its end");

@@ -15,7 +15,7 @@ namespace striker::sil {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, int handle, const std::string& what) {
+[[noreturn]] void refuse(const std::filesystem::path& file, int handle, const std::string& what) {
   if (handle >= 0) {
     close(handle);
   }
@@ -42,13 +42,13 @@ RunLock::RunLock(const std::filesystem::path& file) : lock_(file.string() + ".lo
       const int error = errno;
       if (handle_ >= 0 && (error == EACCES || error == EAGAIN)) {
         fcntl(handle_, F_GETLK, &lock);
-        fail(file, handle_,
-             fmt::format("the process {} is at it: wait until it has ended, or give another --out",
-                         lock.l_pid));
+        refuse(file, handle_,
+               fmt::format("the process {} is at it: wait until it has ended, or give another --out",
+                           lock.l_pid));
       }
-      fail(lock_, handle_,
-           fmt::format("cannot be locked ({}): give an --out where files can",
-                       std::generic_category().message(error)));
+      refuse(lock_, handle_,
+             fmt::format("cannot be locked ({}): give an --out where files can",
+                         std::generic_category().message(error)));
     }
   } while (is_removed(handle_));
 }

@@ -34,7 +34,7 @@ constexpr int niceness = 5;  // where processors are short, the run goes first
 
 asio::ip::address address_of(const std::string& text) {
   Error error;
-  const auto address = asio::ip::make_address(text, error);
+  auto address = asio::ip::make_address(text, error);
   if (error) {
     throw std::runtime_error(
         fmt::format("--view-bind {}: not an address: give one of this machine, as 127.0.0.1", text));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sil/match/record/ssl/gzip_file.hpp"
 
-#define ZLIB_CONST  // what is read is not changed
 #include <zlib.h>
 
 #include <array>
