@@ -32,7 +32,7 @@ int fastest_mm_s() {
 
 int check(const std::string& file, const std::string& json) {
   const core::RobotDescription robot = sil::read_robot(file);
-  const sil::RobotFigures figures = sil::figures_of(robot);
+  const sil::DescribedFigures figures = sil::figures_of(robot);
   const bool fits = loop::BuiltInPilot::suits(core::profile_of(robot));
   fmt::print("{}", sil::robot_report(figures));
   fmt::print(

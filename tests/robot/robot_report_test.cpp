@@ -13,7 +13,7 @@ namespace striker::sil {
 namespace {
 
 TEST(RobotReport, AForwardsFiguresAreThoseWorkedOutByHand) {
-  const RobotFigures forward = figures_of(core::forward);
+  const DescribedFigures forward = figures_of(core::forward);
   EXPECT_DOUBLE_EQ(forward.moved_mass_kg, 1.8);         // 1.5 + 2 x 0.1, and half of that spinning
   EXPECT_NEAR(forward.acceleration_m_s2, 11.11, 0.01);  // 2 x 0.4 / (0.04 x 1.8)
   EXPECT_NEAR(forward.grip_m_s2, 29.43, 0.01);          // 3 x 9.81
@@ -30,7 +30,7 @@ TEST(RobotReport, AForwardsFiguresAreThoseWorkedOutByHand) {
 }
 
 // The loop in steps of 0.01 ms, with its delay: does it settle?
-bool settles(const RobotFigures& loop, const core::RobotDescription& robot, double gain) {
+bool settles(const DescribedFigures& loop, const core::RobotDescription& robot, double gain) {
   constexpr double step_s = 1e-5;
   const double gain_1_kg = gain * 2.0 / (robot.wheel_radius_um / 1e6 * loop.moved_mass_kg);
   std::deque<double> on_its_way(static_cast<std::size_t>(std::lround(loop.delay_ms * 1e-3 / step_s)), 0.0);
@@ -54,7 +54,7 @@ TEST(RobotReport, TheGainMarginIsWhereTheLoopBeginsToSwing) {
   core::RobotDescription late = core::forward;
   late.command_delay_ms = 20;
   for (const core::RobotDescription& robot : {core::forward, core::goalkeeper, late}) {
-    const RobotFigures figures = figures_of(robot);
+    const DescribedFigures figures = figures_of(robot);
     EXPECT_TRUE(settles(figures, robot, 0.97 * figures.gain_margin)) << figures.gain_margin;
     EXPECT_FALSE(settles(figures, robot, 1.03 * figures.gain_margin)) << figures.gain_margin;
   }

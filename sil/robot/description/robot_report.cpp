@@ -49,10 +49,10 @@ double root_rad_s(const Function& falling) {
 
 }  // namespace
 
-RobotFigures figures_of(const core::RobotDescription& robot) {
+DescribedFigures figures_of(const core::RobotDescription& robot) {
   const core::RobotProfile profile = core::profile_of(robot);
   const double radius_m = robot.wheel_radius_um / 1e6;
-  RobotFigures figures;
+  DescribedFigures figures;
   figures.moved_mass_kg = (robot.body_mass_g + 3 * robot.wheel_mass_g) / 1e3;
   figures.acceleration_m_s2 = 2.0 * robot.torque_limit_mNm / 1e3 / (radius_m * figures.moved_mass_kg);
   figures.grip_m_s2 = robot.tyre_friction_percent / 1e2 * gravity_m_s2;
@@ -88,7 +88,7 @@ RobotFigures figures_of(const core::RobotDescription& robot) {
   return figures;
 }
 
-std::string robot_report(const RobotFigures& figures) {
+std::string robot_report(const DescribedFigures& figures) {
   std::string text;
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("{:<14} {}\n", name, value);
@@ -123,7 +123,7 @@ std::string robot_report(const RobotFigures& figures) {
   return text;
 }
 
-void write_robot_json(const RobotFigures& figures, const std::string& source, bool policy_fits,
+void write_robot_json(const DescribedFigures& figures, const std::string& source, bool policy_fits,
                       const std::filesystem::path& file) {
   nlohmann::ordered_json json = {{"source", source},
                                  {"moved_mass_kg", figures.moved_mass_kg},

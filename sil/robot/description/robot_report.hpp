@@ -12,7 +12,7 @@
 
 namespace striker::sil {
 
-struct RobotFigures {
+struct DescribedFigures {
   double moved_mass_kg = 0.0;      // with the wheels' spin
   double acceleration_m_s2 = 0.0;  // at the torque limit, if the tyres hold
   // Friction times gravity, as if the wheels carried all the weight: the skids carry some of it while the robot
@@ -43,13 +43,13 @@ struct RobotFigures {
 };
 
 // Of a description that read_robot takes.
-[[nodiscard]] RobotFigures figures_of(const core::RobotDescription& robot);
+[[nodiscard]] DescribedFigures figures_of(const core::RobotDescription& robot);
 
 // Lines of text, with what is out of the ordinary.
-[[nodiscard]] std::string robot_report(const RobotFigures& figures);
+[[nodiscard]] std::string robot_report(const DescribedFigures& figures);
 
 // `policy`: whether the built-in one fits. Throws as host::AtomicFile does.
-void write_robot_json(const RobotFigures& figures, const std::string& source, bool policy_fits,
+void write_robot_json(const DescribedFigures& figures, const std::string& source, bool policy_fits,
                       const std::filesystem::path& file);
 
 }  // namespace striker::sil

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "sil/match/record/match_frame.hpp"
-#include "sil/match/record/statistics/kicks.hpp"
+#include "sil/match/record/statistics/kick_counts.hpp"
 #include "sil/match/record/statistics/match_figures.hpp"
 #include "sil/match/record/statistics/shots.hpp"
 #include "sil/match/record/statistics/touches.hpp"
@@ -44,7 +44,7 @@ class MatchStatistics {
   MatchFigures figures_;
   Touches touches_;
   Shots shots_;
-  Kicks kicks_;
+  KickCounts kicks_;
 
   // By the frame before: what held while this frame's 50 ms went by.
   GameState state_ = GameState::pause;

@@ -32,7 +32,7 @@ struct Kicking : RecordedMatch {
   const TeamFigures& red_figures() const { return figures(Team::red); }
 };
 
-TEST(Kicks, CountOnceForEachNumber) {
+TEST(KickCounts, CountOnceForEachNumber) {
   Kicking play;
   play.order_kick(1);
   play.run(500);
@@ -44,7 +44,7 @@ TEST(Kicks, CountOnceForEachNumber) {
   EXPECT_EQ(play.figures(Team::blue).kicks, 0);
 }
 
-TEST(Kicks, AreAsMeantWithin15Degrees) {
+TEST(KickCounts, AreAsMeantWithin15Degrees) {
   for (const double beside_deg : {-16.0, -14.0, 0.0, 14.0, 16.0}) {
     Kicking play;
     play.order_kick(1);
@@ -55,7 +55,7 @@ TEST(Kicks, AreAsMeantWithin15Degrees) {
   }
 }
 
-TEST(Kicks, ATouchCountsOnceAndOnlyWhileTheMotionGoesOn) {
+TEST(KickCounts, ATouchCountsOnceAndOnlyWhileTheMotionGoesOn) {
   Kicking play;
   play.order_kick(1);
   play.run(100);
@@ -68,7 +68,7 @@ TEST(Kicks, ATouchCountsOnceAndOnlyWhileTheMotionGoesOn) {
   EXPECT_EQ(play.red_figures().kicks_met, 1);
 }
 
-TEST(Kicks, AnotherRobotsTouchIsNone) {
+TEST(KickCounts, AnotherRobotsTouchIsNone) {
   Kicking play;
   play.order_kick(1);
   play.run(100);
@@ -76,7 +76,7 @@ TEST(Kicks, AnotherRobotsTouchIsNone) {
   EXPECT_EQ(play.red_figures().kicks_met, 0);
 }
 
-TEST(Kicks, BlueMeansTheOtherGoal) {
+TEST(KickCounts, BlueMeansTheOtherGoal) {
   Kicking play;
   play.orders[1] = TeamOrders{};
   (*play.orders[1])[3] = MotionOrder{.number = 1, .target = {3.9, -1.0, 0.0}};

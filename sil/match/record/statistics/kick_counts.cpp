@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sil/match/record/statistics/kicks.hpp"
+#include "sil/match/record/statistics/kick_counts.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -20,7 +20,7 @@ double direction(Vec2 from, Vec2 to) {
 
 }  // namespace
 
-void Kicks::add(const MatchFrame& frame, MatchFigures& figures) {
+void KickCounts::add(const MatchFrame& frame, MatchFigures& figures) {
   for (std::size_t robot = 0; robot < robots_in_match; ++robot) {
     TeamFigures& team = figures.teams[index_of(team_of(robot))];
     see_ball(kicks_[robot], robot, frame.seen, team);
@@ -28,7 +28,7 @@ void Kicks::add(const MatchFrame& frame, MatchFigures& figures) {
   }
 }
 
-void Kicks::see_ball(Kick& kick, std::size_t robot, const RefereeFrame& seen, TeamFigures& figures) {
+void KickCounts::see_ball(Kick& kick, std::size_t robot, const RefereeFrame& seen, TeamFigures& figures) {
   const Vec2 ball = seen.ball.position_m;
   if (kick.frames >= 0 && kick.frames-- == 0) {
     const double beside_rad = std::remainder(direction(kick.ball, ball) - direction(kick.ball, kick.target),
@@ -43,7 +43,7 @@ void Kicks::see_ball(Kick& kick, std::size_t robot, const RefereeFrame& seen, Te
   }
 }
 
-void Kicks::see_order(Kick& kick, std::size_t robot, const MatchFrame& frame, TeamFigures& figures) {
+void KickCounts::see_order(Kick& kick, std::size_t robot, const MatchFrame& frame, TeamFigures& figures) {
   const auto& orders = frame.orders[index_of(team_of(robot))];
   if (!orders || !(*orders)[id_of(robot)] || !frame.ruling.may_move(robot)) {
     return;

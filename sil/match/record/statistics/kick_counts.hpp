@@ -11,7 +11,7 @@
 
 namespace striker::sil {
 
-class Kicks {
+class KickCounts {
  public:
   // A frame in which the clock ran.
   void add(const MatchFrame& frame, MatchFigures& figures);
