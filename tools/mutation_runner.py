@@ -45,7 +45,7 @@ class Worker:
         self.tree, self.build = os.path.join(copy, "tree"), os.path.join(copy, "build")
         self.root, self.timeout_s, self.stop = root, timeout_s, stop
         self.compilers = str(compilers)
-        self.kills = kills  # by file and program, of all workers: who noticed most is asked first
+        self.kills = kills  # by file and program, of all workers: who noticed most is asked first, then the file's namesake
         self.update()
         self.run_or_raise("cmake", "-S", os.path.join(self.tree, "tests", "mutation"), "-B", self.build, "-G", "Ninja",
                           "-DCMAKE_CXX_COMPILER_LAUNCHER=")
@@ -115,7 +115,8 @@ class Worker:
 
     def try_programs(self, case):
         kills = self.kills.setdefault(case.path, {})
-        for program in sorted(self.programs, key=lambda name: -kills.get(name, 0)):
+        stem = os.path.splitext(os.path.basename(case.path))[0]
+        for program in sorted(self.programs, key=lambda name: (-kills.get(name, 0), stem not in name)):
             status, output = self.run(["ninja", "-C", self.build, "-j", self.compilers, program], 600)
             if status is None:
                 return "timed out", "the compiler"

@@ -111,7 +111,7 @@ def kicks_in(log, at_pictures):
 
 
 def kicks_of(file, at_pictures=False):
-    """`at_pictures`: of what comes each tick only the last before each picture, which takes a tenth of the time."""
+    """`at_pictures`: of what comes each tick only the last before each picture, which takes about a third of the time."""
     try:
         with open(file, encoding="ascii") as log:
             kicks = kicks_in(log, at_pictures)
