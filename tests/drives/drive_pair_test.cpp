@@ -93,8 +93,8 @@ TEST_F(Pair, AStateThatIsNotToldIsAFaultWithinThreePeriods) {
     ASSERT_LT(silent, 100U);
   }
   EXPECT_EQ(pair.judge(tick + silent), core::set_of(core::Fault::wheel_state_lost));
-  EXPECT_GT(silent, 20U) << "one state of a 10 ms period that is late is none";
-  EXPECT_LT(silent, 30U);
+  EXPECT_EQ(silent + 1, 29U)
+      << "since they told: more than two periods of 10 ms, with their jitter, and less than three";
 }
 
 TEST_F(Pair, OneThatIsNotEnabledAnyMoreIsAFaultAtOnce) {
@@ -104,6 +104,53 @@ TEST_F(Pair, OneThatIsNotEnabledAnyMoreIsAFaultAtOnce) {
   EXPECT_EQ(pair.judge(tick), core::set_of(core::Fault::drives_cut));
   pair.enable(false);
   EXPECT_EQ(pair.judge(tick), 0U) << "nobody wants it";
+}
+
+TEST_F(Pair, OneThatFellInATickIsAFaultOfThatTickWhateverItTellsAfter) {
+  for (const std::size_t wheel : {left_wheel, right_wheel}) {
+    drive();
+    tell(state(wheel, false));
+    tell(state(wheel, true));
+    EXPECT_EQ(pair.judge(tick), core::set_of(core::Fault::drives_cut)) << wheel;
+    EXPECT_EQ(pair.judge(++tick), 0U) << wheel << ": it is enabled";
+  }
+}
+
+TEST_F(Pair, ADriveHas40TicksToComeUp) {
+  EXPECT_EQ(pair.judge(tick), 0U) << "nobody wants it, however long it has been silent";
+  pair.enable(true);
+  const std::uint32_t wanted_tick = tick;
+  for (; tick <= wanted_tick + 40; ++tick) {
+    tell(state(left_wheel, true));
+    tell(state(right_wheel, false));
+    EXPECT_EQ(pair.judge(tick), 0U) << tick - wanted_tick;
+  }
+  EXPECT_EQ(pair.judge(tick), core::set_of(core::Fault::drives_cut));
+}
+
+TEST_F(Pair, BeingWantedEndsNoSilenceButBeginsItsTime) {
+  EXPECT_EQ(pair.judge(tick), 0U);
+  pair.enable(true);
+  EXPECT_EQ(pair.judge(tick + 28), 0U);
+  EXPECT_EQ(pair.judge(tick + 29), core::set_of(core::Fault::wheel_state_lost));
+}
+
+TEST_F(Pair, RestsAsItToldLast) {
+  EXPECT_TRUE(pair.rests(left_wheel)) << "what told nothing";
+  tell(state(left_wheel, true));
+  EXPECT_FALSE(pair.rests(left_wheel));
+  EXPECT_TRUE(pair.rests(right_wheel));
+  tell(state(left_wheel, false));
+  EXPECT_TRUE(pair.rests(left_wheel));
+}
+
+TEST(FirstSpeeds, AreNoReportAlone) {
+  for (const std::size_t wheel : {left_wheel, right_wheel}) {
+    DrivePair pair;
+    DriveReport report;
+    EXPECT_EQ(pair.take(speed(wheel, 5), 1, report), Verdict::accepted);
+    EXPECT_FALSE(report.is_whole) << wheel;
+  }
 }
 
 TEST(DriveWatch, AsksForSpeedsAndStatesOfBothWithTheirAges) {
