@@ -14,7 +14,9 @@ import qemu_image
 # The ball and the robot now and a decision ago; two of the five actions turn.
 TWELVE = [name + ago for ago in ("", "@1") for name in ("ball_x", "ball_y", "robot_speed", "ball_vx", "ball_vy", "ball_angle")]
 FIVE = [[2.55, 2.55], [0.0, 0.0], [-2.55, -2.55], [2.0, 1.0], [1.0, 2.0]]
-SHAPES = {"6-32-32-3": ["network.hidden=[32, 32]"],
+SHAPES = {"6-64-3": ["network.hidden=[64]"],
+          "6-32-32-3": ["network.hidden=[32, 32]"],
+          "6-64-64-64-3": ["network.hidden=[64, 64, 64]"],
           "12-128-128-5": ["network.hidden=[128, 128]", f"task.inputs={TWELVE}", f"task.actions={FIVE}"]}
 
 
