@@ -82,15 +82,10 @@ std::uint32_t hash_of_shapes() {
   hash_answers<synthetic_int8_rest>(hash);
   hash_answers<synthetic_int8_paper>(hash);
   hash_answers<synthetic_int8_wide>(hash);
-  hash_answers<synthetic_shallow_odd>(hash);
-  hash_answers<synthetic_deep_smallest>(hash);
   hash_answers<synthetic_deep_narrow>(hash);
-  hash_answers<synthetic_deep_paper>(hash);
-  hash_answers<synthetic_int8_shallow>(hash);
   hash_answers<synthetic_int8_deep>(hash);
   hash_answers<limit_one>(hash);
   hash_answers<limit_three>(hash);
-  hash_answers<limit_int8_three>(hash);
   return hash.value();
 }
 
