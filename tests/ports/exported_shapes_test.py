@@ -58,13 +58,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--board", action="append", required=True, help="may be repeated")
     parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser.add_argument("--shape", action="append", choices=SHAPES, help="only this one; may be repeated")
     parser.add_argument("--tools", required=True, help="where striker-train and striker-export are")
     parser.add_argument("--build-dir", required=True)
     arguments = parser.parse_args()
     good = True
     try:
         boards = [qemu_image.read_board(arguments.boards, name) for name in arguments.board]
-        for shape in SHAPES:
+        for shape in arguments.shape or SHAPES:
             header = export(arguments.tools, shape, os.path.join(arguments.build_dir, "exported"))
             for board in boards:
                 good &= holds(board, shape, header, os.path.join(arguments.build_dir, shape, board["name"]))

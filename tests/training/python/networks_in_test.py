@@ -80,9 +80,10 @@ class NetworksIn(PackageCase):
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
 
     def test_the_same_network_is_the_same_header(self):
-        """Of one, two and three hidden layers, and of the narrowest."""
-        for hidden, form in (((32, 32), "Policy<6, 32, 32, 3, 16> p"), ((24,), "Policy1<6, 24, 3, 16> p"),
-                             ((24, 1, 17), "Policy3<6, 24, 1, 17, 3, 16> p"), ((1,), "Policy1<6, 1, 3, 16> p")):
+        """Of one, two and three hidden layers, one of them as narrow as can be."""
+        for hidden, form, also in (((32, 32), "Policy<6, 32, 32, 3, 16> p", ["matmul.onnx"]),
+                                   ((24,), "Policy1<6, 24, 3, 16> p", []),
+                                   ((24, 1, 17), "Policy3<6, 24, 1, 17, 3, 16> p", [])):
             with self.subTest(hidden):
                 module = self.torch_network(hidden)
                 striker.export(module.state_dict(), self.path("torch.safetensors"))
@@ -90,9 +91,11 @@ class NetworksIn(PackageCase):
                 torch.onnx.export(module, torch.zeros(1, 6), self.path("torch.onnx"))
                 self.save(onnx_model(*matmul_chain(arrays)), "matmul.onnx")
                 self.save(onnx_model(*gemm_chain(arrays)), "gemm.onnx")
+                self.assertEqual(len({striker.Network(self.path(name)).identity for name in (
+                    "torch.safetensors", "torch.onnx", "matmul.onnx", "gemm.onnx")}), 1)
                 expected = self.header_of("torch.safetensors")
                 self.assertIn(f"inline constexpr {form} = {{\n", expected)
-                for other in ("torch.onnx", "matmul.onnx", "gemm.onnx"):
+                for other in ["torch.onnx", *also]:
                     self.assertEqual(self.header_of(other), expected, other)
 
     def test_the_same_network_has_the_same_identity(self):
