@@ -51,7 +51,7 @@ def main():
     numpy.random.seed(arguments.seed)
 
     envs = gymnasium.make_vec("Striker/Kick-v0", num_envs=arguments.worlds, vectorization_mode="vector_entry_point",
-                              vector_kwargs={"autoreset_mode": "same_step"})
+                              autoreset_mode="same_step")
     q_network, target_network = QNetwork(envs), QNetwork(envs)
     target_network.load_state_dict(q_network.state_dict())
     optimizer = torch.optim.Adam(q_network.parameters(), lr=1e-3)
