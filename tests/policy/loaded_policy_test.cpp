@@ -86,7 +86,7 @@ TEST(LoadedPolicy, ALayerThatCouldOverflowOrIsOutOfRangeIsRefusedForThat) {
     edited.replace(first, text.find_first_of(",}", first) - first, "-2147483647");
     EXPECT_NE(complaint(edited).find("a 32-bit sum could overflow"), std::string::npos) << complaint(edited);
     edited = text;
-    edited.insert(first, "9999999999");
+    edited.replace(first, text.find_first_of(",}", first) - first, "9999999999");
     EXPECT_NE(complaint(edited).find("out of its type's range"), std::string::npos) << complaint(edited);
     edited = text;
     const std::size_t shift = text.find(".shift = ", at) + 9;
