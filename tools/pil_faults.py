@@ -150,7 +150,7 @@ def reset(run):
 
 def weights(run):
     with run.debugger() as debugger:
-        at = run.symbol("layer1")
+        at = run.symbol("5layerILj0")  # Packed<policy>::layer<0>
         debugger.write(at, bytes([debugger.read(at, 1)[0] ^ 1]))
         begin = len(run.bus.frames)
         debugger.go()

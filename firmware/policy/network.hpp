@@ -41,26 +41,45 @@ using ShapeOf = std::remove_cvref_t<decltype(policy)>;
 template <const auto& policy>
 using SelectedKernel = kernel::Selected<typename ShapeOf<policy>::Weight>;
 
-template <class Kernel, std::size_t Inputs, std::size_t Outputs, class Weight>
-constexpr auto pack_hidden(const Layer<Inputs, Outputs, Weight>& layer) {
-  return Kernel::template pack<kernel::Role::hidden>(
-      layer, Kernel::rounds ? layer.biases : kernel::rounded_biases(layer));
+template <class Kernel, std::size_t n, class Policy>
+constexpr auto pack_layer(const Policy& policy) {
+  const auto& layer = policy.template layer<n>();
+  if constexpr (n == Policy::hidden_layers) {
+    return Kernel::template pack<kernel::Role::output>(layer, layer.biases);
+  } else {
+    return Kernel::template pack<kernel::Role::hidden>(
+        layer, Kernel::rounds ? layer.biases : kernel::rounded_biases(layer));
+  }
 }
 
-template <class Kernel, std::size_t Inputs, std::size_t Outputs, class Weight>
-constexpr auto pack_output(const Layer<Inputs, Outputs, Weight>& layer) {
-  return Kernel::template pack<kernel::Role::output>(layer, layer.biases);
-}
-
-// A policy's weights in a kernel's order.
+// A policy's weights in a kernel's order, layer by layer; the last one is the output's.
 template <const auto& policy, class Kernel = SelectedKernel<policy>>
 struct Packed {
-  static constexpr auto layer1 = pack_hidden<Kernel>(policy.layer1);
-  static constexpr auto layer2 = pack_hidden<Kernel>(policy.layer2);
-  static constexpr auto output = pack_output<Kernel>(policy.output);
+  static constexpr std::size_t layers = ShapeOf<policy>::hidden_layers + 1;
 
-  static constexpr std::size_t bytes = sizeof(layer1) + sizeof(layer2) + sizeof(output);
+  template <std::size_t n>
+  static constexpr auto layer = pack_layer<Kernel, n>(policy);
+
+  static constexpr std::size_t bytes = []<std::size_t... n>(std::index_sequence<n...>) {
+    return (sizeof(layer<n>) + ...);
+  }
+  (std::make_index_sequence<layers>{});
 };
+
+// From the activations that layer n reads to the output layer's sums. Inlined in the callers, a layer at a time.
+template <const auto& policy, class Kernel, std::size_t n = 0, class Activations>
+[[gnu::always_inline]] constexpr void propagate(const Activations& in,
+                                                std::array<std::int32_t, ShapeOf<policy>::actions>& sums) {
+  using Shape = ShapeOf<policy>;
+  constexpr const auto& layer = Packed<policy, Kernel>::template layer<n>;
+  if constexpr (n == Shape::hidden_layers) {
+    Kernel::sums(layer, in, sums);
+  } else {
+    typename Kernel::template Activations<Shape::widths[n + 1]> out;
+    Kernel::template hidden<policy.template layer<n>().shift>(layer, in, out);
+    propagate<policy, Kernel, n + 1>(out, sums);
+  }
+}
 
 // The network's answer to raw inputs, in the order and units of `policy.state`.
 template <const auto& policy,
@@ -68,19 +87,14 @@ template <const auto& policy,
 [[nodiscard, gnu::noinline]] constexpr auto infer(
     const std::array<std::int32_t, ShapeOf<policy>::inputs>& raw) {
   using Shape = ShapeOf<policy>;
-  using Weights = Packed<policy, Kernel>;
   typename Kernel::template Activations<Shape::inputs> inputs;
   // Each input has code of its own, made for its scale: hence a list of indices in place of a loop.
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (inputs.set(i, kernel::scale_input<policy.input_scales[i]>(raw[i])), ...);
   }
   (std::make_index_sequence<Shape::inputs>{});
-  typename Kernel::template Activations<Shape::hidden1> hidden1;
-  typename Kernel::template Activations<Shape::hidden2> hidden2;
-  Kernel::template hidden<policy.layer1.shift>(Weights::layer1, inputs, hidden1);
-  Kernel::template hidden<policy.layer2.shift>(Weights::layer2, hidden1, hidden2);
   QValues<Shape::actions> q;
-  Kernel::sums(Weights::output, hidden2, q.sums);
+  propagate<policy, Kernel>(inputs, q.sums);
   q.action = kernel::index_of_greatest(q.sums);
   return q;
 }

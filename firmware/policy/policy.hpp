@@ -7,8 +7,8 @@
 // The format has no number of its own: a header of another format, like one that was altered, does not
 // compile. When the format changes, every committed header is exported again in the same commit.
 //
-// The network is Inputs -> Hidden1 -> Hidden2 -> Actions, fully connected, ReLU between. All arithmetic is
-// integer; ">>" is the arithmetic shift (floor):
+// The network is Inputs -> one to three hidden layers -> Actions, fully connected, ReLU between. All arithmetic
+// is integer; ">>" is the arithmetic shift (floor):
 //
 //   input i   a = clamp((raw_i * multiplier_i + 2^(shift_i - 1)) >> shift_i, -32767, 32767)   (64-bit product)
 //   hidden j  s = bias_j + sum_i weight_ji * a_i                                              (32-bit sum)
@@ -37,6 +37,7 @@ struct StateInput {
 
 inline constexpr std::uint8_t greatest_look_back = 4;
 inline constexpr std::size_t greatest_inputs = 32;
+inline constexpr std::size_t greatest_hidden_layers = 3;
 inline constexpr std::int32_t decisions_a_kick = 40;
 
 struct InputScale {
@@ -65,16 +66,19 @@ struct GoldenVector {
   std::uint8_t action;
 };
 
-// The weights of all layers are int16, or int8 for half the flash.
-template <std::size_t Inputs, std::size_t Hidden1, std::size_t Hidden2, std::size_t Actions,
-          std::size_t Goldens, class WeightType = std::int16_t>
-struct Policy {
+// The weights of all layers are int16, or int8 for half the flash. Hidden: the neurons of each hidden layer.
+template <class WeightType, std::size_t Goldens, std::size_t Inputs, std::size_t Actions,
+          std::size_t... Hidden>
+struct PolicyOf {
   using Weight = WeightType;
   static constexpr std::size_t inputs = Inputs;
-  static constexpr std::size_t hidden1 = Hidden1;
-  static constexpr std::size_t hidden2 = Hidden2;
   static constexpr std::size_t actions = Actions;
   static constexpr std::size_t goldens = Goldens;
+  static constexpr std::size_t hidden_layers = sizeof...(Hidden);
+  static_assert(hidden_layers >= 1 && hidden_layers <= greatest_hidden_layers && Inputs > 0 &&
+                ((Hidden > 0) && ...));
+  // Of the inputs and of each hidden layer: what the next layer reads. None of a layer that there is not.
+  static constexpr std::array<std::size_t, greatest_hidden_layers + 1> widths = {Inputs, Hidden...};
 
   std::uint32_t identity;            // of everything below: proof.hpp recomputes it
   std::uint32_t configuration_hash;  // FNV-1a (32 bits) of the training configuration's text
@@ -84,11 +88,40 @@ struct Policy {
   // controller reads the situation as in a mirror along the heading (`changes_sign`), and swaps the wheels.
   bool mirrored;
   std::array<InputScale, Inputs> input_scales;
-  Layer<Inputs, Hidden1, Weight> layer1;
-  Layer<Hidden1, Hidden2, Weight> layer2;
-  Layer<Hidden2, Actions, Weight> output;
+  Layer<widths[0], widths[1], Weight> layer1;
+  Layer<widths[1], widths[2], Weight> layer2 = {};
+  Layer<widths[2], widths[3], Weight> layer3 = {};
+  Layer<widths[hidden_layers], Actions, Weight> output;
   std::array<WheelSetPoint, Actions> set_points;
   std::array<GoldenVector<Inputs, Actions>, Goldens> golden_vectors;
+
+  // Of the layers that there are, from 0 upwards; layer<hidden_layers>() is the output's.
+  template <std::size_t n>
+  [[nodiscard]] constexpr const auto& layer() const {
+    static_assert(n <= hidden_layers);
+    if constexpr (n == hidden_layers) {
+      return output;
+    } else if constexpr (n == 0) {
+      return layer1;
+    } else if constexpr (n == 1) {
+      return layer2;
+    } else {
+      return layer3;
+    }
+  }
 };
+
+// As headers name them: of two hidden layers, of one, and of three.
+template <std::size_t Inputs, std::size_t Hidden1, std::size_t Hidden2, std::size_t Actions,
+          std::size_t Goldens, class Weight = std::int16_t>
+using Policy = PolicyOf<Weight, Goldens, Inputs, Actions, Hidden1, Hidden2>;
+
+template <std::size_t Inputs, std::size_t Hidden, std::size_t Actions, std::size_t Goldens,
+          class Weight = std::int16_t>
+using Policy1 = PolicyOf<Weight, Goldens, Inputs, Actions, Hidden>;
+
+template <std::size_t Inputs, std::size_t Hidden1, std::size_t Hidden2, std::size_t Hidden3,
+          std::size_t Actions, std::size_t Goldens, class Weight = std::int16_t>
+using Policy3 = PolicyOf<Weight, Goldens, Inputs, Actions, Hidden1, Hidden2, Hidden3>;
 
 }  // namespace striker::policy

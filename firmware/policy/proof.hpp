@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "firmware/policy/policy.hpp"
 
@@ -78,14 +79,29 @@ constexpr void add_layer(Fnv1a& hash, const Layer<Inputs, Outputs, Weight>& laye
   hash.add(layer.shift);
 }
 
+// From layer n on, whose inputs are `greatest` at most, no sum leaves 32 bits.
+template <std::size_t n, class Policy, std::size_t Width>
+constexpr bool sums_fit_from(const Policy& policy, const std::array<std::int64_t, Width>& greatest) {
+  constexpr bool hidden = n < Policy::hidden_layers;
+  const auto bounds = bound_layer(policy.template layer<n>(), hidden, greatest);
+  if constexpr (hidden) {
+    return bounds.fits && sums_fit_from<n + 1>(policy, bounds.activations);
+  } else {
+    return bounds.fits;
+  }
+}
+
 }  // namespace proof
 
 // All shifts and multipliers are in the ranges that policy.hpp states.
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G, class W>
-constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G, W>& policy) {
+template <class W, std::size_t G, std::size_t I, std::size_t A, std::size_t... H>
+constexpr bool scales_are_valid(const PolicyOf<W, G, I, A, H...>& policy) {
   const auto hidden_shift = [](std::uint8_t shift) { return shift >= 1 && shift <= 30; };
-  bool valid = hidden_shift(policy.layer1.shift) && hidden_shift(policy.layer2.shift) &&
-               policy.output.shift <= 30 && policy.decision_period_ms > 0;
+  bool valid = [&]<std::size_t... n>(std::index_sequence<n...>) {
+    return (hidden_shift(policy.template layer<n>().shift) && ...);
+  }
+  (std::make_index_sequence<sizeof...(H)>{});
+  valid = valid && policy.output.shift <= 30 && policy.decision_period_ms > 0;
   for (const InputScale& scale : policy.input_scales) {
     valid = valid && scale.multiplier > 0 && scale.multiplier <= (1 << 20) && scale.shift >= 1 &&
             scale.shift <= 40;
@@ -94,8 +110,8 @@ constexpr bool scales_are_valid(const Policy<I, H1, H2, A, G, W>& policy) {
 }
 
 // The controller can compute every input.
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G, class W>
-constexpr bool inputs_are_known(const Policy<I, H1, H2, A, G, W>& policy) {
+template <class W, std::size_t G, std::size_t I, std::size_t A, std::size_t... H>
+constexpr bool inputs_are_known(const PolicyOf<W, G, I, A, H...>& policy) {
   bool known = I <= greatest_inputs;
   for (const StateInput& input : policy.state) {
     known = known && static_cast<std::size_t>(input.element) < state_elements.size() &&
@@ -105,20 +121,17 @@ constexpr bool inputs_are_known(const Policy<I, H1, H2, A, G, W>& policy) {
 }
 
 // No input whatever can drive any neuron's 32-bit sum, rounding included, out of range.
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G, class W>
-constexpr bool sums_fit(const Policy<I, H1, H2, A, G, W>& policy) {
+template <class W, std::size_t G, std::size_t I, std::size_t A, std::size_t... H>
+constexpr bool sums_fit(const PolicyOf<W, G, I, A, H...>& policy) {
   std::array<std::int64_t, I> input_bounds{};
   input_bounds.fill(proof::activation_limit);
-  const auto layer1 = proof::bound_layer(policy.layer1, true, input_bounds);
-  const auto layer2 = proof::bound_layer(policy.layer2, true, layer1.activations);
-  const auto output = proof::bound_layer(policy.output, false, layer2.activations);
-  return layer1.fits && layer2.fits && output.fits;
+  return proof::sums_fit_from<0>(policy, input_bounds);
 }
 
 // The identity of everything that decides an action or proves one. Fields are hashed in the order of their
 // declaration, each as the little-endian bytes of its declared type.
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, std::size_t G, class W>
-constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G, W>& policy) {
+template <class W, std::size_t G, std::size_t I, std::size_t A, std::size_t... H>
+constexpr std::uint32_t identity_of(const PolicyOf<W, G, I, A, H...>& policy) {
   proof::Fnv1a hash;
   hash.add(policy.configuration_hash);
   hash.add(policy.decision_period_ms);
@@ -131,9 +144,10 @@ constexpr std::uint32_t identity_of(const Policy<I, H1, H2, A, G, W>& policy) {
     hash.add(scale.multiplier);
     hash.add(scale.shift);
   }
-  proof::add_layer(hash, policy.layer1);
-  proof::add_layer(hash, policy.layer2);
-  proof::add_layer(hash, policy.output);
+  [&]<std::size_t... n>(std::index_sequence<n...>) {
+    (proof::add_layer(hash, policy.template layer<n>()), ...);
+  }
+  (std::make_index_sequence<sizeof...(H) + 1>{});
   for (const WheelSetPoint& set_point : policy.set_points) {
     hash.add(set_point.left_mm_s);
     hash.add(set_point.right_mm_s);

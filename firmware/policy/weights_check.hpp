@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "firmware/policy/network.hpp"
 
@@ -46,9 +47,14 @@ class WeightsCheck {
   static constexpr std::size_t words = Weights::bytes / sizeof(std::uint32_t);
   static constexpr std::size_t pass_ticks = 500;
   // Each layer ends in a slice of its own.
-  static constexpr std::uint32_t words_a_tick = (words + pass_ticks - 4) / (pass_ticks - 3);
-  static constexpr std::uint32_t expected = detail::fnv_of(
-      detail::fnv_of(detail::fnv_of(detail::fnv_begin, Weights::layer1), Weights::layer2), Weights::output);
+  static constexpr std::uint32_t words_a_tick =
+      (words + pass_ticks - Weights::layers - 1) / (pass_ticks - Weights::layers);
+  static constexpr std::uint32_t expected = []<std::size_t... n>(std::index_sequence<n...>) {
+    std::uint32_t hash = detail::fnv_begin;
+    ((hash = detail::fnv_of(hash, Weights::template layer<n>)), ...);
+    return hash;
+  }
+  (std::make_index_sequence<Weights::layers>{});
 
   // Cost: a load, an exclusive or and a multiplication a word.
   [[nodiscard]] bool step() {
@@ -69,20 +75,25 @@ class WeightsCheck {
   }
 
  private:
-  static constexpr std::uint32_t layers = 3;
-  static constexpr std::array<std::uint32_t, layers> layer_words = {
-      sizeof(Weights::layer1) / sizeof(std::uint32_t), sizeof(Weights::layer2) / sizeof(std::uint32_t),
-      sizeof(Weights::output) / sizeof(std::uint32_t)};
+  static constexpr auto layer_words = []<std::size_t... n>(std::index_sequence<n...>) {
+    return std::array<std::uint32_t, Weights::layers>{sizeof(Weights::template layer<n>) /
+                                                      sizeof(std::uint32_t)...};
+  }
+  (std::make_index_sequence<Weights::layers>{});
 
+  template <std::size_t n = 0>
   static const unsigned char* layer_at(std::uint32_t layer) {
-    const void* const begin = layer == 0   ? static_cast<const void*>(&Weights::layer1)
-                              : layer == 1 ? static_cast<const void*>(&Weights::layer2)
-                                           : static_cast<const void*>(&Weights::output);
+    if constexpr (n + 1 < Weights::layers) {
+      if (layer != n) {
+        return layer_at<n + 1>(layer);
+      }
+    }
+    const void* const begin = &Weights::template layer<n>;
     return static_cast<const unsigned char*>(begin);
   }
   void end_layer() {
     at_ = 0;
-    if (++layer_ == layers) {
+    if (++layer_ == Weights::layers) {
       altered_ = altered_ != 0 || hash_ != expected ? 1 : 0;
       layer_ = 0;
       hash_ = detail::fnv_begin;

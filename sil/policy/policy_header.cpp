@@ -90,21 +90,40 @@ LoadedLayer layer_of(const Json& from) {
   return layer;
 }
 
-// "inline constexpr Policy<PARAMETERS> NAME = BODY;" at the begin of a line; its name is empty if there is none.
+constexpr std::string_view int8_suffix = ", std::int8_t";
+
+// As the type has them: sizes of inputs and layers, golden vectors, and the weights' type.
+std::string parameters_of(const LoadedPolicy& policy) {
+  std::string text = std::to_string(policy.state.size());
+  for (const LoadedLayer& layer : policy.layers) {
+    text += fmt::format(", {}", layer.biases.size());
+  }
+  text += fmt::format(", {}", policy.golden_vectors.size());
+  return text.append(policy.is_int8 ? int8_suffix : "");
+}
+
+// "inline constexpr Policy<PARAMETERS> NAME = BODY;" at the begin of a line (or Policy1, or Policy3); its name is empty if
+// there is none.
 struct Definition {
+  std::vector<std::string> layers;  // as the type names them
   std::string_view parameters;
   std::string_view name;
   std::string_view body;
 };
 
 Definition find_definition(std::string_view text) {
-  constexpr std::string_view begins = "\ninline constexpr Policy<";
+  constexpr std::string_view begins = "\ninline constexpr Policy";
   constexpr std::size_t longest = 200;  // parameters and name
   const std::size_t begin = text.find(begins);
   if (begin == std::string_view::npos) {
     return {};
   }
-  const std::string_view rest = text.substr(begin + begins.size());
+  const std::string_view type = text.substr(begin + begins.size(), 2);
+  const std::size_t hidden = type.starts_with("<") ? 2 : type == "1<" ? 1 : type == "3<" ? 3 : 0;
+  if (hidden == 0) {
+    return {};
+  }
+  const std::string_view rest = text.substr(text.find('<', begin) + 1);
   const std::string_view first = rest.substr(0, longest);
   const std::size_t parameters_end = first.find("> ");
   const std::size_t name_end = first.find(" = ");
@@ -116,12 +135,22 @@ Definition find_definition(std::string_view text) {
     return {};
   }
   const std::string_view body = rest.substr(name_end + 3);
-  return {.parameters = first.substr(0, parameters_end),
+  std::vector<std::string> layers;
+  for (std::size_t number = 1; number <= hidden; ++number) {
+    layers.push_back(fmt::format("layer{}", number));
+  }
+  layers.emplace_back("output");
+  return {.layers = std::move(layers),
+          .parameters = first.substr(0, parameters_end),
           .name = name,
           .body = body.substr(0, body.find("\n};") + 2)};
 }
 
-LoadedPolicy policy_of(const Json& from) {
+LoadedPolicy policy_of(const Json& from, const std::vector<std::string>& layers) {
+  constexpr std::size_t fields = 8;  // beside the layers
+  if (from.size() != fields + layers.size()) {
+    throw std::out_of_range(fmt::format("it has {} fields, not {}", from.size(), fields + layers.size()));
+  }
   LoadedPolicy policy;
   policy.identity = whole<std::uint32_t>(from.at("identity"));
   policy.configuration_hash = whole<std::uint32_t>(from.at("configuration_hash"));
@@ -135,7 +164,7 @@ LoadedPolicy policy_of(const Json& from) {
     policy.input_scales.push_back({.multiplier = whole<std::int32_t>(scale.at("multiplier")),
                                    .shift = whole<std::uint8_t>(scale.at("shift"))});
   }
-  for (const char* const name : {"layer1", "layer2", "output"}) {
+  for (const std::string& name : layers) {
     policy.layers.push_back(layer_of(from.at(name)));
   }
   for (const Json& point : from.at("set_points")) {
@@ -161,13 +190,18 @@ LoadedPolicy read_policy_header(const std::filesystem::path& file) {
   }
   LoadedPolicy policy;
   try {
-    policy = policy_of(Json::parse(json_of(found.body)));
+    policy = policy_of(Json::parse(json_of(found.body)), found.layers);
   } catch (const std::exception& error) {
     throw std::runtime_error(
         fmt::format("{}: it is damaged, or of another version: {:.300}", file.string(), error.what()));
   }
   policy.name = found.name;
-  policy.is_int8 = found.parameters.find("int8") != std::string_view::npos;
+  policy.is_int8 = found.parameters.ends_with(int8_suffix);
+  if (found.parameters != parameters_of(policy)) {
+    throw std::runtime_error(
+        fmt::format("{}: it is Policy<{}>, which its layers do not fit: export the model again",
+                    file.string(), found.parameters));
+  }
   require_sound(policy, file.string());
   return policy;
 }

@@ -11,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # The name that an exported header gives its policy.
-policy_name() { sed -nE 's/^inline constexpr Policy<[^>]*> ([a-z_0-9]+) = .*/\1/p' "$1"; }
+policy_name() { sed -nE 's/^inline constexpr Policy[13]?<[^>]*> ([a-z_0-9]+) = .*/\1/p' "$1"; }
 
 flags=(-std=c++20 -O2 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -Wall -Wextra -Werror
   -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$policy\"" "-DSTRIKER_POLICY_NAME=$(policy_name "$policy")")

@@ -21,9 +21,12 @@ float finite_float(Bytes& bytes) {
 
 training::Parameters some_parameters(Bytes& bytes, int inputs) {
   const auto size = [&bytes] { return 1 + bytes.u8() % 8; };
-  training::Parameters parameters(
-      {.inputs = inputs, .hidden1 = size(), .hidden2 = size(), .actions = 1 + size()});
-  for (int layer = 0; layer < training::layer_count; ++layer) {
+  training::Shape shape{.inputs = inputs, .hidden = {}, .actions = 1 + size()};
+  for (int more = bytes.u8() % 3; more >= 0; --more) {
+    shape.hidden.push_back(size());
+  }
+  training::Parameters parameters(shape);
+  for (int layer = 0; layer < parameters.shape().layers(); ++layer) {
     for (float& weight : parameters.weights(layer).reshaped()) {
       weight = finite_float(bytes);
     }

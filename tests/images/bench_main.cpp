@@ -24,6 +24,7 @@
 #include "tests/images/instruction_counter.hpp"
 #include "tests/images/recording.hpp"
 #include "tests/images/step_search.hpp"
+#include "tests/policy/multiply_accumulates.hpp"
 #include "tests/policy/synthetic_policy.hpp"
 
 namespace {
@@ -174,10 +175,7 @@ int main() {
   images::console::print("kernel ");
   images::console::print(SelectedKernel<trained>::name);
   images::console::print("\n");
-  using Shape = ShapeOf<trained>;
-  images::console::print_line(
-      "multiply-accumulates",
-      Shape::inputs * Shape::hidden1 + Shape::hidden1 * Shape::hidden2 + Shape::hidden2 * Shape::actions);
+  images::console::print_line("multiply-accumulates", multiply_accumulates<trained>);
   images::console::print_line("weight bytes", Packed<trained>::bytes);
   images::console::print_line("node bytes", sizeof(Node));
   if (const std::uint32_t inputs = images::console::argument("inputs", 0); inputs > 0) {

@@ -7,6 +7,7 @@
 // each, the run compared frame by frame too. Exit status 0 if nothing differed.
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "firmware/can/codec.hpp"
@@ -20,6 +21,7 @@
 #include "firmware/policy/proof.hpp"
 #include "tests/images/console.hpp"
 #include "tests/images/recording.hpp"
+#include "tests/policy/limit_policy.hpp"
 #include "tests/policy/synthetic_policy.hpp"
 
 namespace {
@@ -52,16 +54,17 @@ std::int64_t passed_golden_vectors() {
 template <const auto& policy>
 void hash_answers(proof::Fnv1a& hash) {
   SmallRandom random(7);
+  std::array<std::int32_t, std::remove_cvref_t<decltype(policy)>::inputs> raw{};
+  raw.fill(std::numeric_limits<std::int32_t>::max());
   for (int i = 0; i < 100; ++i) {
-    std::array<std::int32_t, std::remove_cvref_t<decltype(policy)>::inputs> raw{};
-    for (std::int32_t& element : raw) {
-      element = draw_raw(random);
-    }
     const auto q = infer<policy>(raw);
     for (const std::int32_t sum : q.sums) {
       hash.add(sum);
     }
     hash.add(q.action);
+    for (std::int32_t& element : raw) {
+      element = draw_raw(random);
+    }
   }
 }
 
@@ -79,6 +82,10 @@ std::uint32_t hash_of_shapes() {
   hash_answers<synthetic_int8_rest>(hash);
   hash_answers<synthetic_int8_paper>(hash);
   hash_answers<synthetic_int8_wide>(hash);
+  hash_answers<synthetic_deep_narrow>(hash);
+  hash_answers<synthetic_int8_deep>(hash);
+  hash_answers<limit_one>(hash);
+  hash_answers<limit_three>(hash);
   return hash.value();
 }
 

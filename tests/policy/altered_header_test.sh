@@ -10,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # The name that an exported header gives its policy.
-policy_name() { sed -nE 's/^inline constexpr Policy<[^>]*> ([a-z_0-9]+) = .*/\1/p' "$1"; }
+policy_name() { sed -nE 's/^inline constexpr Policy[13]?<[^>]*> ([a-z_0-9]+) = .*/\1/p' "$1"; }
 
 compile() {
   g++ -std=c++20 -fsyntax-only -I "$source_dir" "-DSTRIKER_POLICY_HEADER=\"$1\"" "-DSTRIKER_POLICY_NAME=$(policy_name "$1")" \
@@ -39,7 +39,7 @@ expect_refusal() {
 compile "$policy" || { echo "the policy itself does not compile" >&2; exit 1; }
 altered="the header was altered after its export"
 expect_refusal identity 's/(\.identity = 0x)(.)/\1F\2/; s/(\.identity = 0x..)[0-9A-F]{7}U/\1000000U/' "$altered"
-expect_refusal one_weight '0,/\.layer2/!{0,/\{\{(-?[0-9]+), /s//{{1, /}' "$altered"
+expect_refusal one_weight '0,/\.output/!{0,/\{\{(-?[0-9]+), /s//{{1, /}' "$altered"
 expect_refusal set_point 's/2550/2500/' "$altered"
 expect_refusal too_fast 's/2550/2551/' "an action goes beyond the robot's top speed"
 expect_refusal overflow '0,/\.biases = \{\{[^0-9-]*-?[0-9]+/s//.biases = {{2147483647/' "a 32-bit sum could overflow"

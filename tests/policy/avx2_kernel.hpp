@@ -138,16 +138,11 @@ template <const auto& policy>
   if constexpr (!InputScaler<Shape::inputs>::can_scale(policy.input_scales)) {
     return striker::policy::infer<policy, Kernel>(raw);
   } else {
-    using Weights = Packed<policy, Kernel>;
     static constexpr InputScaler<Shape::inputs> scaler(policy.input_scales);
     Kernel::Activations<Shape::inputs> inputs;
     scaler.scale(raw, inputs.values.data());
-    Kernel::Activations<Shape::hidden1> hidden1;
-    Kernel::Activations<Shape::hidden2> hidden2;
-    Kernel::hidden<policy.layer1.shift>(Weights::layer1, inputs, hidden1);
-    Kernel::hidden<policy.layer2.shift>(Weights::layer2, hidden1, hidden2);
     QValues<Shape::actions> q;
-    Kernel::sums(Weights::output, hidden2, q.sums);
+    propagate<policy, Kernel>(inputs, q.sums);
     q.action = kernel::index_of_greatest(q.sums);
     return q;
   }

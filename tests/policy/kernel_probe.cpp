@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "firmware/policy/built_in.hpp"
+#include "tests/policy/multiply_accumulates.hpp"
 #include "tests/policy/tested_infer.hpp"
 
 namespace {
@@ -37,8 +38,7 @@ extern "C" [[gnu::noinline]] int counted_inference(const Raw& raw) {
 int main(int argc, char** argv) {
   const std::string_view set = argc > 1 ? argv[1] : "zero";
   if (set == "macs") {
-    std::printf("%zu\n", built_in.inputs * built_in.hidden1 + built_in.hidden1 * built_in.hidden2 +
-                             built_in.hidden2 * built_in.actions);
+    std::printf("%zu\n", multiply_accumulates<built_in>);
     return 0;
   }
   std::mt19937 random(1);

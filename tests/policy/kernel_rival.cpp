@@ -39,13 +39,25 @@ struct FloatLayer {
   }
 };
 
-struct FloatNetwork {
-  FloatLayer<Shape::inputs, Shape::hidden1> layer1{trained.layer1};
-  FloatLayer<Shape::hidden1, Shape::hidden2> layer2{trained.layer2};
-  FloatLayer<Shape::hidden2, Shape::actions> output{trained.output};
-};
+template <std::size_t n>
+const FloatLayer float_layer(trained.layer<n>());
 
 using FloatInput = Eigen::Matrix<float, Shape::inputs, 1>;
+
+// What the float network chooses, from what layer n reads.
+template <std::size_t n, class Vector>
+[[gnu::always_inline]] inline int action_after(const Vector& in) {
+  if constexpr (n < Shape::hidden_layers) {
+    const Eigen::Matrix<float, Shape::widths[n + 1], 1> out =
+        (float_layer<n>.weights * in + float_layer<n>.biases).cwiseMax(0.0F);
+    return action_after<n + 1>(out);
+  } else {
+    const Eigen::Matrix<float, Shape::actions, 1> q = float_layer<n>.weights * in + float_layer<n>.biases;
+    Eigen::Index action = 0;
+    q.maxCoeff(&action);
+    return static_cast<int>(action);
+  }
+}
 
 }  // namespace
 
@@ -54,15 +66,8 @@ extern "C" [[gnu::noinline]] int counted_inference(const Raw& raw) {
   return tested_infer<trained>(raw).action;
 }
 
-extern "C" [[gnu::noinline]] int counted_eigen(const FloatNetwork& network, const FloatInput& input) {
-  const Eigen::Matrix<float, Shape::hidden1, 1> hidden1 =
-      (network.layer1.weights * input + network.layer1.biases).cwiseMax(0.0F);
-  const Eigen::Matrix<float, Shape::hidden2, 1> hidden2 =
-      (network.layer2.weights * hidden1 + network.layer2.biases).cwiseMax(0.0F);
-  const Eigen::Matrix<float, Shape::actions, 1> q = network.output.weights * hidden2 + network.output.biases;
-  Eigen::Index action = 0;
-  q.maxCoeff(&action);
-  return static_cast<int>(action);
+extern "C" [[gnu::noinline]] int counted_eigen(const FloatInput& input) {
+  return action_after<0>(input);
 }
 
 namespace {
@@ -91,7 +96,6 @@ double median(std::vector<double> values) {
 int main(int argc, char** argv) {
   const std::string_view what = argc > 1 ? argv[1] : "time";
   std::mt19937 random(1);
-  static const FloatNetwork network;
   std::vector<Raw> raws(draws);
   std::vector<FloatInput> inputs(draws);
   for (std::size_t i = 0; i < draws; ++i) {
@@ -102,7 +106,7 @@ int main(int argc, char** argv) {
   }
   long actions = 0;
   const auto ours = [&](std::size_t i) { actions += counted_inference(raws[i]); };
-  const auto eigen = [&](std::size_t i) { actions += counted_eigen(network, inputs[i]); };
+  const auto eigen = [&](std::size_t i) { actions += counted_eigen(inputs[i]); };
   if (what != "time") {
     for (std::size_t i = 0; i < 200; ++i) {
       what == "eigen" ? eigen(i) : ours(i);

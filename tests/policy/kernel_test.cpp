@@ -51,6 +51,13 @@ TEST(Kernel, GivesThePortableBitsForEveryShape) {
   expect_same_bits<synthetic_half>();
   expect_same_bits<synthetic_paper>();
   expect_same_bits<synthetic_wide>();
+  expect_same_bits<synthetic_shallow_smallest>();
+  expect_same_bits<synthetic_shallow_odd>();
+  expect_same_bits<synthetic_shallow_widest>();
+  expect_same_bits<synthetic_deep_smallest>();
+  expect_same_bits<synthetic_deep_narrow>();
+  expect_same_bits<synthetic_deep_odd>();
+  expect_same_bits<synthetic_deep_paper>();
 }
 
 TEST(Kernel, GivesThePortableBitsForEveryShapeOfInt8) {
@@ -59,6 +66,9 @@ TEST(Kernel, GivesThePortableBitsForEveryShapeOfInt8) {
   expect_same_bits<synthetic_int8_rest>();
   expect_same_bits<synthetic_int8_paper>();
   expect_same_bits<synthetic_int8_wide>();
+  expect_same_bits<synthetic_int8_shallow>();
+  expect_same_bits<synthetic_int8_deep>();
+  expect_same_bits<synthetic_int8_deep_paper>();
 }
 
 // A byte each, but for what fills a kernel's last words.

@@ -64,5 +64,37 @@ TEST(LoadedPolicy, AnAlteredNumberIsRefused) {
   }
 }
 
+// Whichever layer it is in, and before anything is computed with it.
+TEST(LoadedPolicy, ALayerThatCouldOverflowOrIsOutOfRangeIsRefusedForThat) {
+  std::ifstream stream(STRIKER_POLICY_HEADER);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string copy = testing::TempDir() + "edited_" + policy::built_in_name + ".hpp";
+  const auto complaint = [&copy](const std::string& edited) {
+    std::ofstream(copy) << edited;
+    try {
+      (void)read_policy_header(copy);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("was read");
+  };
+  std::size_t layers = 0;
+  for (std::size_t at = text.find(".biases = {{"); at != std::string::npos;
+       at = text.find(".biases = {{", at + 1), ++layers) {
+    std::string edited = text;
+    const std::size_t first = at + 12;
+    edited.replace(first, text.find_first_of(",}", first) - first, "-2147483647");
+    EXPECT_NE(complaint(edited).find("a 32-bit sum could overflow"), std::string::npos) << complaint(edited);
+    edited = text;
+    edited.replace(first, text.find_first_of(",}", first) - first, "9999999999");
+    EXPECT_NE(complaint(edited).find("out of its type's range"), std::string::npos) << complaint(edited);
+    edited = text;
+    const std::size_t shift = text.find(".shift = ", at) + 9;
+    edited.replace(shift, text.find(',', shift) - shift, "31");
+    EXPECT_NE(complaint(edited).find("is out of range"), std::string::npos) << complaint(edited);
+  }
+  EXPECT_EQ(layers, built_in.hidden_layers + 1);
+}
+
 }  // namespace
 }  // namespace striker::sil

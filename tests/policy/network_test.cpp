@@ -51,9 +51,11 @@ std::vector<std::int64_t> reference(const Raw& raw) {
     in.push_back(std::clamp<std::int64_t>((std::int64_t{raw[i]} * scale.multiplier + half) >> scale.shift,
                                           -32767, 32767));
   }
-  const auto hidden1 = activate(sums_of(built_in.layer1, in), built_in.layer1.shift);
-  const auto hidden2 = activate(sums_of(built_in.layer2, hidden1), built_in.layer2.shift);
-  return sums_of(built_in.output, hidden2);
+  [&]<std::size_t... n>(std::index_sequence<n...>) {
+    ((in = activate(sums_of(built_in.layer<n>(), in), built_in.layer<n>().shift)), ...);
+  }
+  (std::make_index_sequence<built_in.hidden_layers>{});
+  return sums_of(built_in.output, in);
 }
 
 void expect_agreement(const Raw& raw) {
@@ -131,10 +133,10 @@ TEST(Proof, AWeightOrBiasThatCouldOverflowIsRefused) {
   auto heavy = built_in;
   EXPECT_TRUE(sums_fit(heavy));
   using Weight = decltype(heavy)::Weight;
-  heavy.layer2.weights[0].fill(std::numeric_limits<Weight>::max());
+  heavy.layer1.weights[0].fill(std::numeric_limits<Weight>::max());
   EXPECT_EQ(sums_fit(heavy), sizeof(Weight) == 1);
   heavy = built_in;
-  heavy.layer2.biases[0] = std::numeric_limits<std::int32_t>::max();
+  heavy.output.biases[0] = std::numeric_limits<std::int32_t>::max();
   EXPECT_FALSE(sums_fit(heavy));
 }
 
@@ -145,11 +147,22 @@ TEST(Proof, EveryAlterationChangesTheIdentity) {
     return identity_of(copy) != built_in.identity;
   };
   EXPECT_EQ(identity_of(built_in), built_in.identity);
-  for (std::size_t j = 0; j < built_in.hidden2; ++j) {
-    EXPECT_TRUE(altered([&](auto& p) { p.layer2.weights[j][j % built_in.hidden1] ^= 1; }));
+  for (std::size_t j = 0; j < built_in.widths[1]; ++j) {
+    EXPECT_TRUE(altered([&](auto& p) { p.layer1.weights[j][j % built_in.inputs] ^= 1; }));
+  }
+  for (std::size_t j = 0; j < built_in.output.weights[0].size(); ++j) {
+    EXPECT_TRUE(altered([&](auto& p) { p.output.weights[j % built_in.actions][j] ^= 1; }));
+  }
+  if constexpr (built_in.hidden_layers >= 2) {
+    EXPECT_TRUE(altered([](auto& p) { p.layer2.weights[0][0] ^= 1; }));
+    EXPECT_TRUE(altered([](auto& p) { p.layer2.shift ^= 1; }));
+  }
+  if constexpr (built_in.hidden_layers >= 3) {
+    EXPECT_TRUE(altered([](auto& p) { p.layer3.weights[0][0] ^= 1; }));
+    EXPECT_TRUE(altered([](auto& p) { p.layer3.biases[0] += 1; }));
   }
   EXPECT_TRUE(altered([](auto& p) { p.layer1.biases[0] += 1; }));
-  EXPECT_TRUE(altered([](auto& p) { p.layer2.shift = static_cast<std::uint8_t>(p.layer2.shift + 1); }));
+  EXPECT_TRUE(altered([](auto& p) { p.layer1.shift = static_cast<std::uint8_t>(p.layer1.shift + 1); }));
   EXPECT_TRUE(altered([](auto& p) { p.input_scales[0].multiplier += 1; }));
   EXPECT_TRUE(altered([](auto& p) { p.set_points[0].left_mm_s += 1; }));
   EXPECT_TRUE(altered([](auto& p) { p.golden_vectors[0].sums[0] += 1; }));

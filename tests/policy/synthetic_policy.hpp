@@ -49,10 +49,10 @@ constexpr void draw_layer(SmallRandom& random, Layer<Inputs, Outputs, Weight>& l
   layer.shift = shift;
 }
 
-template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, class Weight = std::int16_t>
-constexpr Policy<I, H1, H2, A, 1, Weight> synthetic_policy(std::uint32_t seed) {
+template <class Policy>
+constexpr Policy synthetic_policy_of(std::uint32_t seed) {
   SmallRandom random(seed);
-  Policy<I, H1, H2, A, 1, Weight> policy{};
+  Policy policy{};
   for (InputScale& scale : policy.input_scales) {
     scale.multiplier = static_cast<std::int32_t>(1U << (random.bits() % 21));
     scale.multiplier -=
@@ -60,9 +60,19 @@ constexpr Policy<I, H1, H2, A, 1, Weight> synthetic_policy(std::uint32_t seed) {
     scale.shift = static_cast<std::uint8_t>(1 + random.bits() % 40);
   }
   draw_layer(random, policy.layer1, static_cast<std::uint8_t>(10 + random.bits() % 8));
-  draw_layer(random, policy.layer2, static_cast<std::uint8_t>(10 + random.bits() % 8));
+  if constexpr (Policy::hidden_layers >= 2) {
+    draw_layer(random, policy.layer2, static_cast<std::uint8_t>(10 + random.bits() % 8));
+  }
+  if constexpr (Policy::hidden_layers >= 3) {
+    draw_layer(random, policy.layer3, static_cast<std::uint8_t>(10 + random.bits() % 8));
+  }
   draw_layer(random, policy.output, 8);
   return policy;
+}
+
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t A, class Weight = std::int16_t>
+constexpr auto synthetic_policy(std::uint32_t seed) {
+  return synthetic_policy_of<Policy<I, H1, H2, A, 1, Weight>>(seed);
 }
 
 // A raw input: now small, now great, now at an end of what 32 bits hold.
@@ -89,6 +99,27 @@ inline constexpr auto synthetic_rest = synthetic_policy<9, 38, 27, 6>(3);
 inline constexpr auto synthetic_half = synthetic_policy<6, 32, 32, 3>(4);
 inline constexpr auto synthetic_paper = synthetic_policy<6, 64, 64, 3>(5);
 inline constexpr auto synthetic_wide = synthetic_policy<12, 128, 128, 5>(6);
+
+// One hidden layer, and three.
+template <std::size_t I, std::size_t H, std::size_t A, class Weight = std::int16_t>
+constexpr auto synthetic_shallow(std::uint32_t seed) {
+  return synthetic_policy_of<Policy1<I, H, A, 1, Weight>>(seed);
+}
+template <std::size_t I, std::size_t H1, std::size_t H2, std::size_t H3, std::size_t A,
+          class Weight = std::int16_t>
+constexpr auto synthetic_deep(std::uint32_t seed) {
+  return synthetic_policy_of<Policy3<I, H1, H2, H3, A, 1, Weight>>(seed);
+}
+inline constexpr auto synthetic_shallow_smallest = synthetic_shallow<1, 1, 2>(12);
+inline constexpr auto synthetic_shallow_odd = synthetic_shallow<7, 13, 5>(13);
+inline constexpr auto synthetic_shallow_widest = synthetic_shallow<32, 1024, 9>(14);
+inline constexpr auto synthetic_deep_smallest = synthetic_deep<1, 1, 1, 1, 2>(15);
+inline constexpr auto synthetic_deep_narrow = synthetic_deep<9, 38, 1, 27, 6>(16);
+inline constexpr auto synthetic_deep_odd = synthetic_deep<7, 13, 11, 5, 3>(17);
+inline constexpr auto synthetic_deep_paper = synthetic_deep<6, 64, 64, 64, 3>(18);
+inline constexpr auto synthetic_int8_shallow = synthetic_shallow<7, 13, 5, std::int8_t>(19);
+inline constexpr auto synthetic_int8_deep = synthetic_deep<9, 38, 1, 27, 6, std::int8_t>(20);
+inline constexpr auto synthetic_int8_deep_paper = synthetic_deep<6, 64, 64, 64, 3, std::int8_t>(21);
 
 inline constexpr auto synthetic_int8_smallest = synthetic_policy<1, 1, 1, 2, std::int8_t>(7);
 inline constexpr auto synthetic_int8_odd = synthetic_policy<7, 13, 11, 5, std::int8_t>(8);

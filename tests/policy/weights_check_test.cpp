@@ -8,6 +8,8 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "firmware/policy/built_in.hpp"
 
@@ -27,6 +29,13 @@ std::span<unsigned char> writable(const Layer& layer) {
   return {bytes, sizeof layer};
 }
 
+std::vector<std::span<unsigned char>> writable_layers() {
+  return []<std::size_t... n>(std::index_sequence<n...>) {
+    return std::vector{writable(Weights::layer<n>)...};
+  }
+  (std::make_index_sequence<Weights::layers>{});
+}
+
 std::uint32_t ticks_until_found(Check check) {
   std::uint32_t ticks = 0;
   while (check.step() && ticks < 2'000) {
@@ -44,7 +53,7 @@ TEST(WeightsCheck, AWholePassTakesHalfASecondAndFindsNothingInWhatWasExported) {
 }
 
 TEST(WeightsCheck, EveryFlippedBitIsFoundInItsPass) {
-  for (const auto layer : {writable(Weights::layer1), writable(Weights::layer2), writable(Weights::output)}) {
+  for (const auto layer : writable_layers()) {
     for (std::size_t byte = 0; byte < layer.size(); ++byte) {
       for (unsigned bit = 0; bit<8; bit += layer.size()> 4096 ? 3 : 1) {
         layer[byte] = static_cast<unsigned char>(layer[byte] ^ 1U << bit);
@@ -57,7 +66,7 @@ TEST(WeightsCheck, EveryFlippedBitIsFoundInItsPass) {
 
 // Wherever the check stands when it happens.
 TEST(WeightsCheck, WhatChangesBehindItIsFoundWithinASecond) {
-  const auto layer = writable(Weights::layer1);
+  const auto layer = writable(Weights::layer<0>);
   for (std::uint32_t done = 0; done < 500; done += 7) {
     Check check;
     for (std::uint32_t tick = 0; tick < done; ++tick) {

@@ -14,7 +14,9 @@ import qemu_image
 # The ball and the robot now and a decision ago; two of the five actions turn.
 TWELVE = [name + ago for ago in ("", "@1") for name in ("ball_x", "ball_y", "robot_speed", "ball_vx", "ball_vy", "ball_angle")]
 FIVE = [[2.55, 2.55], [0.0, 0.0], [-2.55, -2.55], [2.0, 1.0], [1.0, 2.0]]
-SHAPES = {"6-32-32-3": ["network.hidden=[32, 32]"],
+SHAPES = {"6-64-3": ["network.hidden=[64]"],
+          "6-32-32-3": ["network.hidden=[32, 32]"],
+          "6-64-64-64-3": ["network.hidden=[64, 64, 64]"],
           "12-128-128-5": ["network.hidden=[128, 128]", f"task.inputs={TWELVE}", f"task.actions={FIVE}"]}
 
 
@@ -56,13 +58,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--board", action="append", required=True, help="may be repeated")
     parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser.add_argument("--shape", action="append", choices=SHAPES, help="only this one; may be repeated")
     parser.add_argument("--tools", required=True, help="where striker-train and striker-export are")
     parser.add_argument("--build-dir", required=True)
     arguments = parser.parse_args()
     good = True
     try:
         boards = [qemu_image.read_board(arguments.boards, name) for name in arguments.board]
-        for shape in SHAPES:
+        for shape in arguments.shape or SHAPES:
             header = export(arguments.tools, shape, os.path.join(arguments.build_dir, "exported"))
             for board in boards:
                 good &= holds(board, shape, header, os.path.join(arguments.build_dir, shape, board["name"]))

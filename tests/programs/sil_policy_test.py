@@ -50,15 +50,21 @@ class SilPolicy(files_case.FilesCase):
             self.assertEqual(summary["policy_name"], name)
 
     def test_a_model_is_the_header_that_is_made_of_it(self):
-        trained = run("striker-train", "--config", PAPER, "--seed", "1", "--out", self.file("run"), "--set",
-                      "run.episodes=100", "--set", "run.validation_episodes=0")
-        self.assertEqual(trained.returncode, 0, trained.stderr)
-        model = self.file("run/model.safetensors")
-        frames, summary = self.play("model", "--policy", model)
-        self.assertEqual(run("striker-export", model, "-o", self.file("p.hpp")).returncode, 0)
-        expected, header = self.play("header", "--policy", self.file("p.hpp"))
-        self.assertEqual(frames, expected)
-        self.assertEqual((summary["policy"], summary["policy_name"]), (header["policy"], "model"))
+        """Of one, two and three hidden layers."""
+        for hidden, form in (("[64, 64]", "Policy<6, 64, 64, 3, 16> p"), ("[40]", "Policy1<6, 40, 3, 16> p"),
+                             ("[24, 20, 16]", "Policy3<6, 24, 20, 16, 3, 16> p")):
+            with self.subTest(hidden):
+                trained = run("striker-train", "--config", PAPER, "--seed", "1", "--out", self.file("run"), "--force", "--set",
+                              "run.episodes=100", "--set", "run.validation_episodes=0", "--set", f"network.hidden={hidden}")
+                self.assertEqual(trained.returncode, 0, trained.stderr)
+                model = self.file("run/model.safetensors")
+                frames, summary = self.play("model", "--policy", model)
+                self.assertEqual(run("striker-export", model, "-o", self.file("p.hpp")).returncode, 0)
+                with open(self.file("p.hpp"), encoding="utf-8") as stream:
+                    self.assertIn(f"inline constexpr {form} = ", stream.read())
+                expected, header = self.play("header", "--policy", self.file("p.hpp"))
+                self.assertEqual(frames, expected)
+                self.assertEqual((summary["policy"], summary["policy_name"]), (header["policy"], "model"))
 
     def test_what_no_compiler_would_take_is_refused(self):
         with open(os.path.join(EXPORTED, "kick.hpp"), encoding="utf-8") as stream:

@@ -51,15 +51,20 @@ class PolicyToImage(unittest.TestCase):
         # A multiply-accumulate is between a half and four instructions of a Cortex-M4F.
         products = 6 * 16 + 16 * 16 + 16 * 3
         self.assertTrue(0.5 * products < card["inference_instructions"] < 4 * products, card)
-        self.assertTrue(card["inference_instructions"] < card["longest_step_found"] <= card["step_limit"], card)
-        self.assertLess(abs(card["float_reward"] - card["bus_reward"]), card["float_ci95"] + card["bus_ci95"])
+        steps = [card[name] for name in ("inference_instructions", "longest_step_found", "proved_step", "step_limit")]
+        self.assertEqual(sorted(steps), steps)
+        self.assertLess(abs(card["float_reward"] - card["bus_reward"]), card["float_ci95"])
+        self.assertLess(abs(card["integer_reward"] - card["integer_against"]), card["float_ci95"])
         self.assertGreater(card["agreement"], 0.98)
         for part in ("flash_bytes", "ram_bytes", "stack_bytes"):
             self.assertTrue(500 < card[part] < 100_000, card)
         self.assertTrue(os.path.exists(card["image"]))
         with open(os.path.join(self.out, "small.hpp"), encoding="utf-8") as stream:
             self.assertIn(card["identity"].lower(), stream.read().lower())
-        for said in (f"small: policy {card['identity']}", f"mean reward {card['float_reward']:.3f}", card["image"]):
+        for said in (f"small: policy {card['identity']}", *(f"mean reward {card[f'{station}_reward']:.3f}"
+                                                            for station in ("float", "integer", "bus")),
+                     f"{card['proved_step']:,} proved", f"{card['flash_bytes']:,}", f"{card['agreement']:.2%}",
+                     f"{card['inference_instructions']:,} instructions", card["image"]):
             self.assertIn(said, result.stdout)
 
     def test_what_leads_nowhere_is_told_and_leaves_no_card(self):

@@ -111,7 +111,7 @@ inline Parameters some_parameters(unsigned seed, const Shape& shape = {}) {
   Parameters parameters = initial_parameters(shape, seed);
   std::mt19937 random(seed);
   std::normal_distribution<float> bias(0.0F, 0.1F);
-  for (const int layer : {0, 1}) {
+  for (int layer = 0; layer + 1 < shape.layers(); ++layer) {
     for (float& b : parameters.biases(layer)) {
       b = bias(random);
     }

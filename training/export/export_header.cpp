@@ -50,7 +50,7 @@ std::string array_of(const Numbers& numbers, std::size_t column) {
   return text;
 }
 
-std::string layer_text(const char* name, const IntegerLayer& layer) {
+std::string layer_text(const std::string& name, const IntegerLayer& layer) {
   std::string text = fmt::format("    .{} = {{\n        .weights = {{{{\n", name);
   for (std::size_t neuron = 0; neuron < layer.outputs(); ++neuron) {
     text += fmt::format("            {},\n", array_of(layer.row(neuron), 12));
@@ -58,6 +58,20 @@ std::string layer_text(const char* name, const IntegerLayer& layer) {
   text += fmt::format("        }}}},\n        .biases = {},\n        .shift = {},\n    }},\n",
                       array_of(layer.biases, 18), layer.shift);
   return text;
+}
+
+// Inputs, the outputs of each layer, golden vectors, and the weights' type where it is not int16.
+std::string parameters_of(const ExportedPolicy& policy) {
+  std::string text = std::to_string(policy.network.input_scales.size());
+  for (const IntegerLayer& layer : policy.network.layers) {
+    text += fmt::format(", {}", layer.outputs());
+  }
+  text += fmt::format(", {}", policy.golden_vectors.size());
+  return text + (policy.network.weights == WeightType::int8 ? ", std::int8_t" : "");
+}
+
+const char* type_of(std::size_t hidden_layers) {
+  return hidden_layers == 1 ? "Policy1" : hidden_layers == 2 ? "Policy" : "Policy3";
 }
 
 std::string inputs_text(const ExportedPolicy& policy) {
@@ -140,17 +154,16 @@ std::string header_text(const ExportedPolicy& policy, const std::string& name,
   }
   text += "#pragma once\n\n#include \"firmware/policy/policy.hpp\"\n\nnamespace striker::policy {\n\n";
   text += "// clang-format off\n";
-  text += fmt::format("inline constexpr Policy<{}, {}, {}, {}, {}{}> {} = {{\n",
-                      policy.network.input_scales.size(), layers.at(0).outputs(), layers.at(1).outputs(),
-                      layers.at(2).outputs(), policy.golden_vectors.size(),
-                      policy.network.weights == WeightType::int8 ? ", std::int8_t" : "", name);
+  text += fmt::format("inline constexpr {}<{}> {} = {{\n", type_of(layers.size() - 1), parameters_of(policy),
+                      name);
   text += fmt::format("    .identity = 0x{:08X}U,\n    .configuration_hash = 0x{:08X}U,\n",
                       identity_of(policy), policy.configuration_hash);
   text += fmt::format("    .decision_period_ms = {},\n", policy.decision_period_ms);
   text += inputs_text(policy);
-  text += layer_text("layer1", layers.at(0));
-  text += layer_text("layer2", layers.at(1));
-  text += layer_text("output", layers.at(2));
+  for (std::size_t l = 0; l + 1 < layers.size(); ++l) {
+    text += layer_text(fmt::format("layer{}", l + 1), layers[l]);
+  }
+  text += layer_text("output", layers.back());
   text += set_points_text(policy.actions);
   text += goldens_text(policy.golden_vectors);
   text += "};\n// clang-format on\n\n}  // namespace striker::policy\n";

@@ -34,8 +34,7 @@ struct FloatLayer {
 
 std::vector<FloatLayer> layers_of(const Parameters& parameters) {
   std::vector<FloatLayer> layers;
-  layers.reserve(layer_count);
-  for (int layer = 0; layer < layer_count; ++layer) {
+  for (int layer = 0; layer < parameters.shape().layers(); ++layer) {
     layers.push_back({parameters.weights(layer).cast<double>(), parameters.biases(layer).cast<double>()});
   }
   return layers;
@@ -162,8 +161,8 @@ std::string way_out(bool hidden, bool dead, Eigen::Index states) {
                 : "train with a lower optimiser.learning_rate";
 }
 
-[[noreturn]] void refuse_layer(std::size_t number, const FloatLayer& layer, const Culprit& culprit,
-                               const Eigen::MatrixXd& inputs, WeightType type) {
+[[noreturn]] void refuse_layer(std::size_t number, bool hidden, const FloatLayer& layer,
+                               const Culprit& culprit, const Eigen::MatrixXd& inputs, WeightType type) {
   const auto [row, column, times] = culprit;
   const bool bias = column == layer.weights.cols();
   const double value = bias ? layer.biases(row) : layer.weights(row, column);
@@ -173,13 +172,12 @@ std::string way_out(bool hidden, bool dead, Eigen::Index states) {
       name_of(type), 2 * (number - 1), bias ? "bias" : "weight", row,
       bias ? "" : fmt::format(", column {}", column), value,
       times > 1.0 ? fmt::format("{:.3g} times what fits", times) : "the most of a sum that does not fit",
-      way_out(number < static_cast<std::size_t>(layer_count), most <= 0.0, inputs.cols())));
+      way_out(hidden, most <= 0.0, inputs.cols())));
 }
 
 // Appends the layer at the greatest weight scale that passes the proof; returns that scale's exponent.
-int append_layer(IntegerNetwork& network, const FloatLayer& layer, const Eigen::MatrixXd& inputs,
+int append_layer(IntegerNetwork& network, const FloatLayer& layer, bool hidden, const Eigen::MatrixXd& inputs,
                  int input_exponent, int output_exponent) {
-  const bool hidden = network.layers.size() + 1 < static_cast<std::size_t>(layer_count);
   const int least_shift = hidden ? 1 : 0;
   const Eigen::MatrixXd feedback = error_feedback(inputs);
   const double limit = greatest_weight(network.weights);
@@ -188,7 +186,7 @@ int append_layer(IntegerNetwork& network, const FloatLayer& layer, const Eigen::
   for (;; --exponent) {
     const int shift = input_exponent + exponent - output_exponent;
     if (shift < least_shift) {
-      refuse_layer(network.layers.size() + 1, layer,
+      refuse_layer(network.layers.size() + 1, hidden, layer,
                    culprit_of(layer, limit, least_shift + output_exponent - input_exponent, input_exponent),
                    inputs, network.weights);
     }
@@ -245,7 +243,7 @@ Quantised quantise(const Parameters& parameters, const StateInputs& inputs,
     LayerReport report;
     report.activation_exponent = hidden ? activation_exponent(held[l + 1]) : q_fraction_bits;
     report.weight_exponent =
-        append_layer(result.network, layers[l], held[l], input_exponent, report.activation_exponent);
+        append_layer(result.network, layers[l], hidden, held[l], input_exponent, report.activation_exponent);
     input_exponent = report.activation_exponent;
     result.layers.push_back(report);
   }

@@ -32,7 +32,7 @@ LearnerState initial_state(const LearnerSetup& setup, std::uint64_t seed) {
 Parameters initial_parameters(const Shape& shape, std::uint64_t seed) {
   sil::Random random(seed, 0, sil::random_stream::weights);
   Parameters parameters(shape);
-  for (int layer = 0; layer < layer_count; ++layer) {
+  for (int layer = 0; layer < shape.layers(); ++layer) {
     auto weights = parameters.weights(layer);
     const double limit = std::sqrt(6.0 / static_cast<double>(weights.cols()));
     for (float& weight : weights.reshaped()) {

@@ -22,11 +22,19 @@ void join_duel(const Shape& shape, Pass& pass) {
 
 }  // namespace
 
+std::vector<int> Shape::widths() const {
+  std::vector<int> widths{inputs};
+  widths.insert(widths.end(), hidden.begin(), hidden.end());
+  widths.push_back(outputs());
+  return widths;
+}
+
 Parameters::Parameters(const Shape& shape) : shape_(shape) {
+  const std::vector<int> widths = shape.widths();
   int size = 0;
-  for (std::size_t layer = 0; layer < places_.size(); ++layer) {
-    const int columns = shape.widths()[layer];
-    const int rows = shape.widths()[layer + 1];
+  for (std::size_t layer = 0; layer + 1 < widths.size(); ++layer) {
+    const int columns = widths[layer];
+    const int rows = widths[layer + 1];
     places_[layer] = {.weights = size, .biases = size + rows * columns, .rows = rows, .columns = columns};
     size += rows * (columns + 1);
   }
@@ -55,7 +63,7 @@ Eigen::Map<const Eigen::VectorXf> Parameters::biases(int layer) const {
 
 void round_to_int8(const Parameters& from, Parameters& to) {
   to.values = from.values;
-  for (int layer = 0; layer < layer_count; ++layer) {
+  for (int layer = 0; layer < from.shape().layers(); ++layer) {
     auto weights = to.weights(layer);
     const double largest = std::max(static_cast<double>(weights.cwiseAbs().maxCoeff()), 1e-9);
     const auto scale = static_cast<float>(std::exp2(std::floor(std::log2(127.0 / largest))));
@@ -70,36 +78,41 @@ Parameters folded(const Parameters& parameters) {
   }
   shape.dueling = false;
   Parameters plain(shape);
-  for (int layer = 0; layer + 1 < layer_count; ++layer) {
+  const int last = shape.layers() - 1;
+  for (int layer = 0; layer < last; ++layer) {
     plain.weights(layer) = parameters.weights(layer);
     plain.biases(layer) = parameters.biases(layer);
   }
-  const auto weights = parameters.weights(layer_count - 1);
-  const auto biases = parameters.biases(layer_count - 1);
+  const auto weights = parameters.weights(last);
+  const auto biases = parameters.biases(last);
   const auto advantages = weights.topRows(shape.actions);
-  plain.weights(layer_count - 1) =
-      advantages.rowwise() + (weights.row(shape.actions) - advantages.colwise().mean());
-  plain.biases(layer_count - 1) =
+  plain.weights(last) = advantages.rowwise() + (weights.row(shape.actions) - advantages.colwise().mean());
+  plain.biases(last) =
       biases.head(shape.actions).array() + (biases(shape.actions) - biases.head(shape.actions).mean());
   return plain;
 }
 
 Pass::Pass(const Shape& shape, int batch)
-    : hidden1(shape.hidden1, batch),
-      hidden2(shape.hidden2, batch),
-      output(shape.outputs(), batch),
-      q(shape.actions, batch),
-      gradient1(shape.hidden1, batch),
-      gradient2(shape.hidden2, batch),
-      output_gradient(shape.outputs(), batch) {}
+    : output(shape.outputs(), batch), q(shape.actions, batch), output_gradient(shape.outputs(), batch) {
+  for (const int neurons : shape.hidden) {
+    hidden.emplace_back(neurons, batch);
+    hidden_gradients.emplace_back(neurons, batch);
+  }
+}
 
 void forward(const Parameters& parameters, const Eigen::Ref<const Eigen::MatrixXf>& states, Pass& pass) {
-  pass.hidden1.noalias() = parameters.weights(0) * states;
-  pass.hidden1 = (pass.hidden1.colwise() + parameters.biases(0)).cwiseMax(0.0F);
-  pass.hidden2.noalias() = parameters.weights(1) * pass.hidden1;
-  pass.hidden2 = (pass.hidden2.colwise() + parameters.biases(1)).cwiseMax(0.0F);
-  pass.output.noalias() = parameters.weights(2) * pass.hidden2;
-  pass.output.colwise() += parameters.biases(2);
+  const auto hidden = [&](std::size_t l, const auto& inputs) {
+    const auto layer = static_cast<int>(l);
+    pass.hidden[l].noalias() = parameters.weights(layer) * inputs;
+    pass.hidden[l] = (pass.hidden[l].colwise() + parameters.biases(layer)).cwiseMax(0.0F);
+  };
+  hidden(0, states);
+  for (std::size_t l = 1; l < pass.hidden.size(); ++l) {
+    hidden(l, pass.hidden[l - 1]);
+  }
+  const int last = parameters.shape().layers() - 1;
+  pass.output.noalias() = parameters.weights(last) * pass.hidden.back();
+  pass.output.colwise() += parameters.biases(last);
   if (parameters.shape().dueling) {
     join_duel(parameters.shape(), pass);
   } else {
@@ -128,13 +141,17 @@ void backward(const Parameters& parameters, const Eigen::Ref<const Eigen::Matrix
     biases.noalias() = of_sums.rowwise().sum();
     at += weights.size() + biases.size();
   };
-  pass.gradient2.noalias() = parameters.weights(2).transpose() * pass.output_gradient;
-  cut(pass.hidden2, pass.gradient2);
-  pass.gradient1.noalias() = parameters.weights(1).transpose() * pass.gradient2;
-  cut(pass.hidden1, pass.gradient1);
-  layer_gradient(pass.gradient1, states);
-  layer_gradient(pass.gradient2, pass.hidden1);
-  layer_gradient(pass.output_gradient, pass.hidden2);
+  auto& gradients = pass.hidden_gradients;
+  for (std::size_t l = gradients.size(); l-- > 0;) {
+    const Eigen::MatrixXf& next = l + 1 < gradients.size() ? gradients[l + 1] : pass.output_gradient;
+    gradients[l].noalias() = parameters.weights(static_cast<int>(l) + 1).transpose() * next;
+    cut(pass.hidden[l], gradients[l]);
+  }
+  layer_gradient(gradients[0], states);
+  for (std::size_t l = 1; l < gradients.size(); ++l) {
+    layer_gradient(gradients[l], pass.hidden[l - 1]);
+  }
+  layer_gradient(pass.output_gradient, pass.hidden.back());
 }
 
 auto Actor::values(const Parameters& parameters, const Features& state) -> Eigen::MatrixXf::ColXpr {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Q network: inputs -> hidden -> hidden -> actions, fully connected, ReLU between, float32.
+// The Q network: inputs -> one to three hidden layers -> actions, fully connected, ReLU between, float32.
 //
 // All parameters of a network lie in one vector, so that copying, Adam and hashing are one line each;
 // `weights` and `biases` look at a layer's part of it. Sizes are fixed when an object is made: nothing here
@@ -8,25 +8,26 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <vector>
 
 #include "training/task/state.hpp"
 
 namespace striker::training {
 
-inline constexpr int layer_count = 3;
+inline constexpr std::size_t greatest_hidden_layers = 3;  // as the firmware's header has it
 
 struct Shape {
   int inputs = 6;
-  int hidden1 = 64;
-  int hidden2 = 64;
+  std::vector<int> hidden = {64, 64};  // the neurons of one to three layers
   int actions = 3;
   // Dueling (Wang et al. 2016): the last layer has one more neuron, V, and Q = V + A - mean(A).
   bool dueling = false;
 
   [[nodiscard]] int outputs() const { return actions + (dueling ? 1 : 0); }
-  [[nodiscard]] std::array<int, layer_count + 1> widths() const {
-    return {inputs, hidden1, hidden2, outputs()};
-  }
+  [[nodiscard]] int layers() const { return static_cast<int>(hidden.size()) + 1; }
+  // From the inputs to the outputs.
+  [[nodiscard]] std::vector<int> widths() const;
   bool operator==(const Shape&) const = default;
 };
 
@@ -36,7 +37,7 @@ class Parameters {
 
   [[nodiscard]] const Shape& shape() const { return shape_; }
 
-  // Layer 0 to 2: outputs x inputs, and one bias an output.
+  // Layer 0 to shape().layers() - 1: outputs x inputs, and one bias an output.
   [[nodiscard]] Eigen::Map<Eigen::MatrixXf> weights(int layer);
   [[nodiscard]] Eigen::Map<const Eigen::MatrixXf> weights(int layer) const;
   [[nodiscard]] Eigen::Map<Eigen::VectorXf> biases(int layer);
@@ -53,7 +54,7 @@ class Parameters {
   };
 
   Shape shape_;
-  std::array<Place, layer_count> places_{};
+  std::array<Place, greatest_hidden_layers + 1> places_{};
 };
 
 // Are all of them finite? Costs a pass over them at the memory's speed (0 times NaN or infinity is NaN).
@@ -79,8 +80,8 @@ template <class Values>
 // What a forward pass computes, a sample a column, and room for the backward pass.
 struct Pass {
   Pass(const Shape& shape, int batch);
-  Eigen::MatrixXf hidden1, hidden2, output, q;
-  Eigen::MatrixXf gradient1, gradient2, output_gradient;
+  std::vector<Eigen::MatrixXf> hidden, hidden_gradients;  // one a hidden layer
+  Eigen::MatrixXf output, q, output_gradient;
 };
 
 void forward(const Parameters& parameters, const Eigen::Ref<const Eigen::MatrixXf>& states, Pass& pass);

@@ -61,11 +61,11 @@ std::vector<LayerTensors> in_order(const NamedNetwork& network, const std::strin
     inputs = layer.bias->values.size();
     ordered.push_back(layer);
   }
-  if (ordered.size() != layer_count && ordered.size() != layer_count - 1) {
+  if (ordered.size() < 2 || ordered.size() > greatest_hidden_layers + 1) {
     throw std::runtime_error(fmt::format(
-        "{}: it holds {} layers; a kick model has one or two hidden layers and an output layer: 0.weight, "
-        "0.bias, 2.weight, 2.bias, 4.weight and 4.bias",
-        file, ordered.size()));
+        "{}: it holds {} layer{}; a kick model has one, two or three hidden layers and an output layer: 0.weight, "
+        "0.bias, 2.weight, 2.bias, ...",
+        file, ordered.size(), ordered.size() == 1 ? "" : "s"));
   }
   return ordered;
 }
@@ -74,7 +74,7 @@ std::vector<LayerTensors> in_order(const NamedNetwork& network, const std::strin
 
 std::vector<Tensor> tensors_of(const Parameters& parameters) {
   std::vector<Tensor> tensors;
-  for (int layer = 0; layer < layer_count; ++layer) {
+  for (int layer = 0; layer < parameters.shape().layers(); ++layer) {
     const RowMajor weights = parameters.weights(layer);
     const auto biases = parameters.biases(layer);
     const auto rows = static_cast<std::size_t>(weights.rows());
@@ -91,27 +91,18 @@ std::vector<Tensor> tensors_of(const Parameters& parameters) {
 Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& file,
                          const std::string& network) {
   const std::vector<LayerTensors> layers = in_order(find_network(tensors, file, network), file);
-  // After a ReLU the identity and another one change nothing, to the bit.
-  const bool adds_identity = layers.size() == layer_count - 1;
-  const auto outputs = [&layers](std::size_t layer) {
-    return static_cast<int>(layers[layer].bias->values.size());
-  };
-  Parameters parameters({.inputs = static_cast<int>(layers[0].weight->shape[1]),
-                         .hidden1 = outputs(0),
-                         .hidden2 = outputs(adds_identity ? 0 : 1),
-                         .actions = outputs(layers.size() - 1)});
-  for (int layer = 0; layer < layer_count; ++layer) {
-    auto weights = parameters.weights(layer);
-    auto biases = parameters.biases(layer);
-    if (adds_identity && layer == 1) {
-      weights.setIdentity();
-      biases.setZero();
-      continue;
-    }
-    const LayerTensors& from =
-        layers[static_cast<std::size_t>(adds_identity && layer > 1 ? layer - 1 : layer)];
-    weights = Eigen::Map<const RowMajor>(from.weight->values.data(), weights.rows(), weights.cols());
-    biases = Eigen::Map<const Eigen::VectorXf>(from.bias->values.data(), biases.size());
+  Shape shape{.inputs = static_cast<int>(layers.front().weight->shape[1]),
+              .hidden = {},
+              .actions = static_cast<int>(layers.back().bias->values.size())};
+  for (std::size_t l = 0; l + 1 < layers.size(); ++l) {
+    shape.hidden.push_back(static_cast<int>(layers[l].bias->values.size()));
+  }
+  Parameters parameters(shape);
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    auto weights = parameters.weights(static_cast<int>(l));
+    auto biases = parameters.biases(static_cast<int>(l));
+    weights = Eigen::Map<const RowMajor>(layers[l].weight->values.data(), weights.rows(), weights.cols());
+    biases = Eigen::Map<const Eigen::VectorXf>(layers[l].bias->values.data(), biases.size());
   }
   return parameters;
 }

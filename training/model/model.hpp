@@ -6,8 +6,7 @@
 // ascending order, whatever stands before the number ("q_net.q_net.0.weight" of Stable-Baselines3,
 // "network.0.weight" of CleanRL). Of several networks in a file, one whose name holds "target" is left out. A file whose
 // name ends in .onnx is read as such (onnx.hpp): the same network is the same model.
-// A network with one hidden layer becomes one with two, whose second is the identity: the same Q values to the bit, at the
-// cost of its size squared in multiply-accumulates. Deeper ones are refused: the firmware's header has two hidden layers.
+// One to three hidden layers, as the firmware's header has them; deeper networks are refused.
 #pragma once
 
 #include <cstddef>

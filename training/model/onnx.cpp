@@ -162,7 +162,7 @@ class Chain {
       weight = transposed(weight);
     }
     if (tensors_.size() == std::size_t{2} * most_layers) {
-      refuse(fmt::format("it has more than {} layers, and a kick network one or two hidden layers",
+      refuse(fmt::format("it has more than {} layers, and a kick network one, two or three hidden layers",
                          most_layers));
     }
     weight.name = fmt::format("{}.weight", tensors_.size());

@@ -104,12 +104,11 @@ Shape read_shape(const TomlReader& reader, const TaskConfig& task) {
   Shape shape;
   shape.inputs = static_cast<int>(task.inputs.size());
   shape.actions = static_cast<int>(task.actions.size());
-  const auto hidden = reader.numbers("network.hidden", 2, 1.0, 1024.0);
+  const auto hidden = reader.numbers("network.hidden", 1, greatest_hidden_layers, 1.0, 1024.0);
   if (std::any_of(hidden.begin(), hidden.end(), [](double size) { return size != std::floor(size); })) {
     reader.fail("network.hidden", "must hold whole numbers");
   }
-  shape.hidden1 = static_cast<int>(hidden[0]);
-  shape.hidden2 = static_cast<int>(hidden[1]);
+  shape.hidden.assign(hidden.begin(), hidden.end());
   reader.read("network.dueling", shape.dueling);
   return shape;
 }

@@ -58,7 +58,12 @@ class TomlReader {
   // An array of `count` numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count, double least,
                                             double greatest) const {
-    return numbers(key, node(key), count, least, greatest);
+    return numbers(key, node(key), count, count, least, greatest);
+  }
+
+  [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t least_count,
+                                            std::size_t greatest_count, double least, double greatest) const {
+    return numbers(key, node(key), least_count, greatest_count, least, greatest);
   }
 
   // An array of arrays of two numbers.
@@ -71,7 +76,7 @@ class TomlReader {
     }
     std::vector<std::vector<double>> result;
     for (const toml::node& row : *rows) {
-      result.push_back(numbers(key, toml::node_view<const toml::node>(row), 2, least, greatest));
+      result.push_back(numbers(key, toml::node_view<const toml::node>(row), 2, 2, least, greatest));
     }
     return result;
   }
@@ -105,11 +110,12 @@ class TomlReader {
     return *read;
   }
 
-  std::vector<double> numbers(const std::string& key, const Node& from, std::size_t count, double least,
-                              double greatest) const {
+  std::vector<double> numbers(const std::string& key, const Node& from, std::size_t least_count,
+                              std::size_t greatest_count, double least, double greatest) const {
     const toml::array* array = from.as_array();
-    if (array == nullptr || array->size() != count) {
-      fail(key, fmt::format("must hold {} numbers from {} to {}", count, least, greatest));
+    if (array == nullptr || array->size() < least_count || array->size() > greatest_count) {
+      const std::string count = least_count == greatest_count ? "" : fmt::format("{} to ", least_count);
+      fail(key, fmt::format("must hold {}{} numbers from {} to {}", count, greatest_count, least, greatest));
     }
     std::vector<double> result;
     for (const toml::node& element : *array) {

@@ -2,15 +2,13 @@
 // Places in memory that may be damaged, and how many bits they have.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace striker::sil {
 
-template <std::size_t count>
-[[nodiscard]] std::uint64_t bits_of(const std::array<std::span<std::byte>, count>& parts) {
+[[nodiscard]] inline std::uint64_t bits_of(std::span<const std::span<std::byte>> parts) {
   std::uint64_t bits = 0;
   for (const auto& part : parts) {
     bits += 8 * part.size();
@@ -19,8 +17,7 @@ template <std::size_t count>
 }
 
 // `bit` is below bits_of(parts).
-template <std::size_t count>
-void flip(const std::array<std::span<std::byte>, count>& parts, std::uint64_t bit) {
+inline void flip(std::span<const std::span<std::byte>> parts, std::uint64_t bit) {
   auto part = parts.begin();
   for (; bit >= 8 * part->size(); ++part) {
     bit -= 8 * part->size();

@@ -3,7 +3,6 @@
 // these are damaged while this one steps, and whole again before anybody else does.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -36,7 +35,7 @@ class WeightFlips final : public ControllerLink {
   ControllerLink* link_;
   TimedFault fault_;
   Random random_;
-  std::array<std::span<std::byte>, 3> weights_;
+  std::vector<std::span<std::byte>> weights_;
   std::vector<std::uint64_t> flipped_;
 };
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "firmware/policy/built_in.hpp"
 #include "firmware/policy/network.hpp"
@@ -32,9 +33,12 @@ std::span<std::byte> writable(const Layer& layer) {
 
 }  // namespace
 
-std::array<std::span<std::byte>, 3> writable_weights() {
+std::vector<std::span<std::byte>> writable_weights() {
   using Weights = policy::Packed<policy::built_in>;
-  return {writable(Weights::layer1), writable(Weights::layer2), writable(Weights::output)};
+  return []<std::size_t... n>(std::index_sequence<n...>) {
+    return std::vector{writable(Weights::template layer<n>)...};
+  }
+  (std::make_index_sequence<Weights::layers>{});
 }
 
 }  // namespace striker::sil

@@ -3,13 +3,13 @@
 // pages are made writable first. Every controller in the process has the same ones.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace striker::sil {
 
-// The three layers. Throws std::runtime_error if their pages cannot be made writable.
-[[nodiscard]] std::array<std::span<std::byte>, 3> writable_weights();
+// Layer by layer. Throws std::runtime_error if their pages cannot be made writable.
+[[nodiscard]] std::vector<std::span<std::byte>> writable_weights();
 
 }  // namespace striker::sil

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -173,7 +174,7 @@ TEST(Export, TheReportSaysHowFarEightBitsAgree) {
 // The header follows the task: its inputs, their past, its actions, the network's shape.
 TEST(Export, AnotherTasksHeaderProvesItself) {
   const TemporaryDirectory directory;
-  const Model model = some_model({.inputs = 12, .hidden1 = 32, .hidden2 = 16, .actions = 5});
+  const Model model = some_model({.inputs = 12, .hidden = {32, 16}, .actions = 5});
   const std::string header = header_of(export_model(model, another_task()), model, "trained");
   EXPECT_TRUE(
       compiles(header,
@@ -181,14 +182,31 @@ TEST(Export, AnotherTasksHeaderProvesItself) {
                "static_assert(policy::scales_are_valid(policy::trained));\n"
                "static_assert(policy::inputs_are_known(policy::trained));\n"
                "static_assert(policy::identity_of(policy::trained) == policy::trained.identity);\n"
-               "static_assert(policy::trained.inputs == 12 && policy::trained.hidden1 == 32);\n"
-               "static_assert(policy::trained.hidden2 == 16 && policy::trained.actions == 5);\n"
+               "static_assert(policy::trained.inputs == 12 && policy::trained.widths[1] == 32);\n"
+               "static_assert(policy::trained.widths[2] == 16 && policy::trained.actions == 5);\n"
                "static_assert(policy::trained.state[6].decisions_ago == 1 && policy::trained.mirrored);\n"
                "static_assert(policy::trained.state[11].element == policy::StateElement::decisions_left);\n"
                "static_assert(policy::trained.set_points[3].left_mm_s == 2000);\n"
                "static_assert(policy::trained.set_points[3].right_mm_s == 1000);\n",
                directory))
       << content_of(directory / "errors");
+}
+
+// Of one hidden layer, with weights of eight bits, and of three, one of which is as narrow as can be.
+TEST(Export, HeadersOfOneAndThreeHiddenLayersProveThemselves) {
+  const TemporaryDirectory directory;
+  const std::string sound =
+      "static_assert(policy::sums_fit(policy::trained) && policy::scales_are_valid(policy::trained));\n"
+      "static_assert(policy::identity_of(policy::trained) == policy::trained.identity);\n";
+  const auto expect_sound = [&](const std::vector<int>& hidden, WeightType weights, const std::string& type) {
+    const Model model = some_model({.hidden = hidden});
+    const std::string header = header_of(export_model(model, {}, weights), model, "trained");
+    EXPECT_NE(header.find("constexpr " + type + " trained = "), std::string::npos);
+    EXPECT_TRUE(compiles(header, sound, directory)) << content_of(directory / "errors");
+    EXPECT_FALSE(compiles(replaced(header, ".layer1", ".layer2"), sound, directory));
+  };
+  expect_sound({48}, WeightType::int8, "Policy1<6, 48, 3, 16, std::int8_t>");
+  expect_sound({32, 1, 20}, WeightType::int16, "Policy3<6, 32, 1, 20, 3, 16>");
 }
 
 TEST(Export, WhatTheFirmwareCannotServeIsRefused) {

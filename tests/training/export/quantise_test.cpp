@@ -101,7 +101,7 @@ TEST(Quantise, WeightsRoundedToEightBitsAreExportedAsTheyAre) {
     Parameters rounded(Shape{});
     round_to_int8(some_parameters(seed), rounded);
     const Quantised quantised = quantise(rounded, inputs, some_states(seed, 500), WeightType::int8);
-    for (int l = 0; l < layer_count; ++l) {
+    for (int l = 0; l < rounded.shape().layers(); ++l) {
       const auto n = static_cast<std::size_t>(l);
       const auto& stored = quantised.network.layers[n].weights;
       const auto exact = rounded.weights(l);

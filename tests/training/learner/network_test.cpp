@@ -30,16 +30,18 @@ std::vector<double> plain_q(const Shape& shape, const Eigen::VectorXd& parameter
                             const Eigen::VectorXd& state) {
   std::vector<double> values(state.begin(), state.end());
   const double* weight = parameters.data();
-  for (std::size_t l = 0; l < layer_count; ++l) {
-    const auto inputs = static_cast<std::size_t>(shape.widths()[l]);
-    const auto outputs = static_cast<std::size_t>(shape.widths()[l + 1]);
+  const std::vector<int> widths = shape.widths();
+  const std::size_t layers = widths.size() - 1;
+  for (std::size_t l = 0; l < layers; ++l) {
+    const auto inputs = static_cast<std::size_t>(widths[l]);
+    const auto outputs = static_cast<std::size_t>(widths[l + 1]);
     std::vector<double> next;
     for (std::size_t j = 0; j < outputs; ++j) {
       double sum = weight[inputs * outputs + j];
       for (std::size_t i = 0; i < inputs; ++i) {
         sum += weight[i * outputs + j] * values[i];
       }
-      next.push_back(l + 1 < layer_count ? std::max(0.0, sum) : sum);
+      next.push_back(l + 1 < layers ? std::max(0.0, sum) : sum);
     }
     weight += (inputs + 1) * outputs;
     values = next;
@@ -115,7 +117,9 @@ TEST_P(Networks, GradientIsThatOfFiniteDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Networks,
                          testing::Values(Shape{}, Shape{.dueling = true},
-                                         Shape{.inputs = 12, .hidden1 = 40, .hidden2 = 20, .actions = 5}),
+                                         Shape{.inputs = 12, .hidden = {40, 20}, .actions = 5},
+                                         Shape{.inputs = 7, .hidden = {30}},
+                                         Shape{.inputs = 8, .hidden = {24, 1, 18}, .dueling = true}),
                          [](const auto& tested) {
                            return std::to_string(tested.param.inputs) +
                                   (tested.param.dueling ? "Dueling" : "");

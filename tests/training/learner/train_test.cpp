@@ -41,7 +41,7 @@ TEST(Train, EveryOptionMatters) {
     change(config);
     return !(learnt(config, 1) == without);
   };
-  EXPECT_TRUE(differs([](Config& c) { c.shape.hidden1 = 32; }));
+  EXPECT_TRUE(differs([](Config& c) { c.shape.hidden[0] = 32; }));
   EXPECT_TRUE(differs([](Config& c) { c.shape.dueling = true; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.gamma = 0.9; }));
   EXPECT_TRUE(differs([](Config& c) { c.learner.n_step = 1; }));

@@ -234,7 +234,13 @@ class HostileFiles(unittest.TestCase):
                 (header[:body] + "{.identity = true}\n};", "damaged"), (header[:body] + "{}\n};", "damaged"),
                 (header.replace(".shift = ", ".shift = 9", 1), "range"),
                 (header.replace(".decisions_ago = 0", ".decisions_ago = 200", 1), "range"),
-                (header.replace("layer2", "layer1", 1), "damaged"), (header.replace("\n", "\r\n"), "no policy|damaged"),
+                (header.replace("layer2", "layer1", 1), "damaged"),
+                (header.replace("Policy<14, 96, 96", "Policy1<14, 96", 1), "damaged"),
+                (header.replace("Policy<14, 96, 96", "Policy3<14, 96, 96, 96", 1), "damaged"),
+                (header.replace("Policy<14, 96, 96", "Policy2<14, 96, 96", 1), "no policy"),
+                (header.replace("Policy<14, 96, 96", "Policy<14, 96, 97", 1), "do not fit"),
+                (header.replace("3, 16> kick", "3, 17> kick", 1), "do not fit"),
+                (header.replace("3, 16> kick", "3, 16, std::int8_t> kick", 1), "range"), (header.replace("\n", "\r\n"), "no policy|damaged"),
                 (header + "\0" * 1000 + header, None)):
             if said is not None:
                 self.refused(self.write("p.hpp", content.encode()), said, program="striker-sil")

@@ -18,6 +18,11 @@ TEST(Model, ComesBackBitForBit) {
   const Model model{.parameters = some_parameters(1), .metadata = {{"seed", "1"}}};
   save_model(model, directory / "model.safetensors");
   const Model read = load_model(directory / "model.safetensors");
+  for (const std::vector<int>& hidden : {std::vector{64}, {1}, {8, 1, 10}}) {
+    const Parameters parameters = some_parameters(1, {.hidden = hidden});
+    save_model({.parameters = parameters, .metadata = {}}, directory / "other.safetensors");
+    EXPECT_EQ(load_model(directory / "other.safetensors").parameters, parameters);
+  }
   EXPECT_EQ(read.parameters, model.parameters);
   EXPECT_EQ(read.metadata, model.metadata);
   EXPECT_EQ(model_identity(read.parameters), model_identity(model.parameters));
@@ -64,7 +69,15 @@ TEST(Model, OfAnotherShapeIsRefused) {
   SafeTensors deeper = good;
   deeper.tensors.push_back({.name = "6.weight", .shape = {1, 3}, .values = {0.0F, 0.0F, 0.0F}});
   deeper.tensors.push_back({.name = "6.bias", .shape = {1}, .values = {0.0F}});
-  EXPECT_NE(complaint(deeper).find("4 layers"), std::string::npos);
+  EXPECT_EQ(complaint(deeper), "was read");  // three hidden layers
+  deeper.tensors.push_back({.name = "8.weight", .shape = {1, 1}, .values = {0.0F}});
+  deeper.tensors.push_back({.name = "8.bias", .shape = {1}, .values = {0.0F}});
+  EXPECT_NE(complaint(deeper).find("5 layers; a kick model has one, two or three hidden layers"),
+            std::string::npos);
+  SafeTensors single = good;
+  single.tensors.resize(2);
+  EXPECT_NE(complaint(single).find("1 layer; a kick model has one, two or three hidden layers"),
+            std::string::npos);
   SafeTensors two = good;
   two.tensors.push_back({.name = "b.0.weight", .shape = {1, 1}, .values = {0.0F}});
   EXPECT_NE(complaint(two).find("2 networks"), std::string::npos);
@@ -87,7 +100,7 @@ std::string complaint_of(const std::vector<Tensor>& tensors, const std::string& 
 
 // A weight as Keras holds it, in any layer that is not square.
 TEST(Model, ATransposedWeightIsCalledThat) {
-  const Parameters parameters = some_parameters(1, {.inputs = 6, .hidden1 = 8, .hidden2 = 10, .actions = 3});
+  const Parameters parameters = some_parameters(1, {.inputs = 6, .hidden = {8, 10}, .actions = 3});
   for (const std::size_t at : {0U, 2U, 4U}) {
     std::vector<Tensor> tensors = tensors_of(parameters);
     std::vector<std::size_t>& shape = tensors[at].shape;
@@ -145,8 +158,7 @@ TEST(Model, WithoutNumbersIsNotWritten) {
 // order of the tensors.
 TEST(Model, OtherPeoplesNamesAreRead) {
   const TemporaryDirectory directory;
-  const Parameters parameters =
-      some_parameters(1, {.inputs = 12, .hidden1 = 40, .hidden2 = 24, .actions = 5});
+  const Parameters parameters = some_parameters(1, {.inputs = 12, .hidden = {40, 24}, .actions = 5});
   const auto named = [&parameters](const std::string& prefix) {
     std::vector<Tensor> tensors = tensors_of(parameters);
     for (Tensor& tensor : tensors) {

@@ -36,17 +36,28 @@ class Examples(PackageCase):
     def test_a_reward_of_ones_own(self):
         self.assertIn("100 worlds", self.run_example("custom_reward.py"))
 
-    def test_stable_baselines(self):
-        """Where it is installed; else the example says what is missing."""
-        example, model = os.path.join(EXAMPLES, "train_sb3.py"), self.path("sb3.safetensors")
-        result = subprocess.run([sys.executable, example, "-o", model, "--steps", "3000", "--episodes", "10"],
-                                capture_output=True, text=True, check=False,
-                                env={**os.environ, "PYTHONPATH": os.environ["STRIKER_PACKAGE"] + ":" +
-                                     os.environ.get("PYTHONPATH", "")})
+    def run_where_installed(self, name, *arguments):
+        """The model that an example of another library's learner writes; nothing where the library is missing, and said so."""
+        model = self.path("model.safetensors")
+        result = subprocess.run([sys.executable, os.path.join(EXAMPLES, name), "-o", model, *arguments], capture_output=True,
+                                text=True, check=False, env={**os.environ, "PYTHONPATH": os.environ["STRIKER_PACKAGE"] + ":" +
+                                                             os.environ.get("PYTHONPATH", "")})
         if result.returncode != 0:
-            self.assertRegex(result.stderr, "^train_sb3.py: No module named .*train_dqn.py\n$")
-            return
+            self.assertRegex(result.stderr, f"^{name}: No module named .*train_dqn.py\n$")
+            self.assertFalse(os.path.exists(model))
+            return None
         self.must_run("striker-evaluate", "--model", model, "--episodes", 5, "--seed", 1)
+        return model
+
+    def test_stable_baselines(self):
+        self.run_where_installed("train_sb3.py", "--steps", "3000", "--episodes", "10")
+
+    def test_cleanrl(self):
+        model = self.run_where_installed("train_cleanrl.py", "--steps", "6400")
+        if model is not None:
+            self.must_run("striker-export", model, "-o", self.path("cleanrl.hpp"))
+            with open(self.path("cleanrl.hpp"), encoding="utf-8") as stream:
+                self.assertIn("Policy3<6, 64, 64, 32, 3, 16> cleanrl", stream.read())
 
     def test_speed(self):
         said = self.run_example("speed.py", "--share", "0.002")

@@ -23,26 +23,33 @@ def onnx_model(nodes, constants, inputs=6, outputs=3, more_outputs=()):
     return helper.make_model(graph)
 
 
+def layers_of(network):
+    return sorted(name.removesuffix(".weight") for name in network if name.endswith(".weight"))
+
+
 def gemm_chain(network, **attributes):
-    nodes = []
-    for layer, (reads, makes) in zip("024", (("state", "a"), ("b", "c"), ("d", "q"))):
-        nodes.append(helper.make_node("Gemm", [reads, f"{layer}.weight", f"{layer}.bias"], [makes], transB=1,
-                                      **attributes))
-    nodes.insert(1, helper.make_node("Relu", ["a"], ["b"]))
-    nodes.insert(3, helper.make_node("Relu", ["c"], ["d"]))
+    nodes, value = [], "state"
+    for layer in layers_of(network):
+        last = layer == layers_of(network)[-1]
+        nodes.append(helper.make_node("Gemm", [value, f"{layer}.weight", f"{layer}.bias"], ["q" if last else f"{layer}.s"],
+                                      transB=1, **attributes))
+        if not last:
+            nodes.append(helper.make_node("Relu", [f"{layer}.s"], [f"{layer}.r"]))
+            value = f"{layer}.r"
     return nodes, dict(network)
 
 
 def matmul_chain(network):
     """As Keras exports: weights the other way round, biases added, on either side."""
     nodes, constants, value = [helper.make_node("Identity", ["state"], ["i"])], {}, "i"
-    for layer in "024":
+    for layer in layers_of(network):
+        last = layer == layers_of(network)[-1]
         constants[f"{layer}.w"] = numpy.ascontiguousarray(network[f"{layer}.weight"].T)
         constants[f"{layer}.b"] = network[f"{layer}.bias"]
         nodes.append(helper.make_node("MatMul", [value, f"{layer}.w"], [f"{layer}.m"]))
         added = [f"{layer}.m", f"{layer}.b"] if layer != "2" else [f"{layer}.b", f"{layer}.m"]
-        nodes.append(helper.make_node("Add", added, ["q" if layer == "4" else f"{layer}.s"]))
-        if layer != "4":
+        nodes.append(helper.make_node("Add", added, ["q" if last else f"{layer}.s"]))
+        if not last:
             nodes.append(helper.make_node("Relu", [f"{layer}.s"], [f"{layer}.r"]))
             value = f"{layer}.r"
     return nodes, constants
@@ -55,10 +62,12 @@ class NetworksIn(PackageCase):
         with open(self.path("p.hpp"), encoding="utf-8") as stream:
             return [line for line in stream if not line.startswith("//")]
 
-    def torch_network(self):
+    def torch_network(self, hidden=(32, 32)):
         torch.manual_seed(3)
-        return torch.nn.Sequential(torch.nn.Linear(6, 32), torch.nn.ReLU(), torch.nn.Linear(32, 32), torch.nn.ReLU(),
-                                   torch.nn.Linear(32, 3))
+        widths, layers = (6, *hidden, 3), []
+        for reads, makes in zip(widths, widths[1:]):
+            layers += [torch.nn.Linear(reads, makes), torch.nn.ReLU()]
+        return torch.nn.Sequential(*layers[:-1])
 
     def save(self, model, name="m.onnx"):
         onnx.save(model, self.path(name))
@@ -71,15 +80,23 @@ class NetworksIn(PackageCase):
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
 
     def test_the_same_network_is_the_same_header(self):
-        module = self.torch_network()
-        striker.export(module.state_dict(), self.path("torch.safetensors"))
-        arrays = {name: tensor.numpy() for name, tensor in module.state_dict().items()}
-        torch.onnx.export(module, torch.zeros(1, 6), self.path("torch.onnx"))
-        self.save(onnx_model(*matmul_chain(arrays)), "matmul.onnx")
-        expected = self.header_of("torch.safetensors")
-        self.assertGreater(len(expected), 100)
-        for other in ("torch.onnx", "matmul.onnx"):
-            self.assertEqual(self.header_of(other), expected, other)
+        """Of one, two and three hidden layers, one of them as narrow as can be."""
+        for hidden, form, also in (((32, 32), "Policy<6, 32, 32, 3, 16> p", ["matmul.onnx"]),
+                                   ((24,), "Policy1<6, 24, 3, 16> p", []),
+                                   ((24, 1, 17), "Policy3<6, 24, 1, 17, 3, 16> p", [])):
+            with self.subTest(hidden):
+                module = self.torch_network(hidden)
+                striker.export(module.state_dict(), self.path("torch.safetensors"))
+                arrays = {name: tensor.numpy() for name, tensor in module.state_dict().items()}
+                torch.onnx.export(module, torch.zeros(1, 6), self.path("torch.onnx"))
+                self.save(onnx_model(*matmul_chain(arrays)), "matmul.onnx")
+                self.save(onnx_model(*gemm_chain(arrays)), "gemm.onnx")
+                self.assertEqual(len({striker.Network(self.path(name)).identity for name in (
+                    "torch.safetensors", "torch.onnx", "matmul.onnx", "gemm.onnx")}), 1)
+                expected = self.header_of("torch.safetensors")
+                self.assertIn(f"inline constexpr {form} = {{\n", expected)
+                for other in ["torch.onnx", *also]:
+                    self.assertEqual(self.header_of(other), expected, other)
 
     def test_the_same_network_has_the_same_identity(self):
         module = self.torch_network()
@@ -102,22 +119,19 @@ class NetworksIn(PackageCase):
         numpy.testing.assert_allclose([network.values(state) for state in states.numpy()], values, atol=1e-5)
         self.assertGreater(numpy.mean(network(states.numpy()) == values.argmax(1)), 0.99)
 
-    def test_one_hidden_layer_is_two_of_which_one_changes_nothing(self):
-        module = torch.nn.Sequential(torch.nn.Linear(6, 24), torch.nn.ReLU(), torch.nn.Linear(24, 3))
-        striker.export(module.state_dict(), self.path("one.safetensors"))
-        torch.onnx.export(module, torch.zeros(1, 6), self.path("one.onnx"))
-        arrays = {name: tensor.numpy() for name, tensor in module.state_dict().items()}
-        two = {"0.weight": arrays["0.weight"], "0.bias": arrays["0.bias"], "2.weight": numpy.eye(24),
-               "2.bias": numpy.zeros(24), "4.weight": arrays["2.weight"], "4.bias": arrays["2.bias"]}
-        striker.export(two, self.path("two.safetensors"))
-        expected = striker.Network(self.path("two.safetensors"))
-        for name in ("one.safetensors", "one.onnx"):
-            network = striker.Network(self.path(name))
-            self.assertEqual(network.identity, expected.identity)
+    def test_one_and_three_hidden_layers_are_computed_as_torch_does(self):
+        for hidden in ((24,), (20, 1, 12)):
+            module = self.torch_network(hidden)
+            striker.export(module.state_dict(), self.path("m.safetensors"))
+            torch.onnx.export(module, torch.zeros(1, 6), self.path("m.onnx"))
             states = torch.randn(300, 6)
             values = module(states).detach().numpy()
-            numpy.testing.assert_allclose([network.values(state) for state in states.numpy()], values, atol=1e-5)
-        self.assertIn("Policy<6, 24, 24, 3, 16> ", "".join(self.header_of("one.safetensors")))
+            identities = set()
+            for name in ("m.safetensors", "m.onnx"):
+                network = striker.Network(self.path(name))
+                identities.add(network.identity)
+                numpy.testing.assert_allclose([network.values(state) for state in states.numpy()], values, atol=1e-5)
+            self.assertEqual(len(identities), 1)
 
     def test_metadata_of_onnx_names_the_task(self):
         model = onnx_model(*gemm_chain(some_network(inputs=2)), inputs=2)
@@ -136,11 +150,17 @@ class NetworksIn(PackageCase):
         def tanh(nodes, _):
             nodes[1].op_type = "Tanh"
 
+        def leaky(nodes, _):
+            nodes[3].op_type = "LeakyRelu"
+
+        def convolution(nodes, _):
+            nodes[2].op_type = "Conv"
+
         def no_relu(nodes, _):
             nodes[1].op_type = "Identity"
 
         def fork(nodes, _):
-            nodes.append(helper.make_node("Relu", ["a"], ["unused"]))
+            nodes.append(helper.make_node("Relu", ["0.s"], ["unused"]))
 
         def double(_, constants):
             constants["2.weight"] = constants["2.weight"].astype(numpy.float64)
@@ -152,21 +172,28 @@ class NetworksIn(PackageCase):
             constants["4.bias"] = numpy.array([0, numpy.nan, 0], numpy.float32)
 
         def circle(nodes, _):
-            nodes[2] = helper.make_node("Identity", ["b"], ["state"])
+            nodes[2] = helper.make_node("Identity", ["0.r"], ["state"])
 
         def open_end(nodes, _):
             nodes.pop()
 
-        for change, said in ((tanh, "Tanh"), (no_relu, "without a Relu"), (fork, "no chain"), (double, "not FLOAT"),
+        for change, said in ((tanh, "Tanh"), (leaky, "LeakyRelu"), (convolution, "Conv"), (no_relu, "without a Relu"), (fork, "no chain"), (double, "not FLOAT"),
                              (nothing_there, "2.weight, which is no constant"), (not_finite, "NaN"),
                              (circle, "circle"), (open_end, "no node makes")):
             with self.subTest(change.__name__):
                 self.refused(changed(change), f"m.onnx: .*{said}.*{reads}")
         self.refused(onnx_model(*gemm_chain(network, alpha=0.5)), "alpha other than 1")
-        two = helper.make_tensor_value_info("c", onnx.TensorProto.FLOAT, [1, 32])
+        two = helper.make_tensor_value_info("2.s", onnx.TensorProto.FLOAT, [1, 32])
         self.refused(onnx_model(*gemm_chain(network), more_outputs=[two]), "2 outputs")
         self.refused(onnx_model([helper.make_node("Gemm", ["state", "w", "b"], ["q"], transB=1)],
-                                {"w": network["0.weight"][:3], "b": network["0.bias"][:3]}), "1 layers.*two hidden")
+                                {"w": network["0.weight"][:3], "b": network["0.bias"][:3]}), "1 layer;.*one, two or three hidden")
+        deep = {f"{2 * layer}.{part}": network[f"{name}.{part}"] for part in ("weight", "bias")
+                for layer, name in enumerate("02224")}
+        self.refused(onnx_model(*gemm_chain(deep)), "5 layers;.*one, two or three hidden")
+        del deep["4.weight"], deep["4.bias"]  # as many as there may be
+        self.must_run("striker-evaluate", "--model", self.save(onnx_model(*gemm_chain(deep))), "--episodes", 1, "--seed", 1)
+        narrow = {**network, "2.weight": network["2.weight"][:, :31]}
+        self.refused(onnx_model(*gemm_chain(narrow)), r"2.weight has shape \[32, 31\], not \[32, 32\]")
 
     def test_what_is_no_onnx_file_is_refused(self):
         for content in (b"", b"nothing of the kind", onnx_model(*gemm_chain(some_network())).SerializeToString()[:900]):
@@ -178,10 +205,12 @@ class NetworksIn(PackageCase):
         self.assertFalse(os.path.exists(self.path("p.hpp")))
 
     def test_a_state_dictionary_that_cannot_be_served_writes_nothing(self):
-        deep = {**some_network(), "6.weight": numpy.zeros((3, 3)), "6.bias": numpy.zeros(3)}
+        deep = {**some_network(), **{f"{layer}.{part}": numpy.zeros((3, 3)[:size]) for layer in (6, 8)
+                                     for part, size in (("weight", 2), ("bias", 1))}}
+        shallow = {name: array for name, array in some_network().items() if name.startswith("0.")}
         wrong = {**some_network(), "2.bias": numpy.zeros(31)}
         infinite = {**some_network(), "4.bias": numpy.array([0, numpy.inf, 0])}
-        for network, said in ((deep, "4 layers.*two hidden"), (wrong, "2.weight has shape"), (infinite, "4.bias.*NaN"),
+        for network, said in ((deep, "5 layers.*one, two or three hidden"), (shallow, "1 layer;.*one, two or three hidden"), (wrong, "2.weight has shape"), (infinite, "4.bias.*NaN"),
                               ({}, "no network")):
             self.assertRaisesRegex(RuntimeError, f"m.safetensors: .*{said}", striker.export, network,
                                    self.path("m.safetensors"))

@@ -60,6 +60,9 @@ const std::vector<Wrong> wrong = {
     {"UnknownKind", "kind = \"kick\"", "kind = \"dribble\"", {"task.kind = 'dribble'", "must be \"kick\""}},
     {"SpeedsTurned", "speed_m_s = [1.0, 3.0]", "speed_m_s = [3.0, 1.0]", {"ball.speed_m_s", "lower"}},
     {"HalfANeuron", "hidden = [64, 64]", "hidden = [64, 0.5]", {"network.hidden"}},
+    {"NoHiddenLayer", "hidden = [64, 64]", "hidden = []", {"network.hidden", "1 to 3 numbers"}},
+    {"FourHiddenLayers", "hidden = [64, 64]", "hidden = [8, 8, 8, 8]", {"network.hidden", "1 to 3 numbers"}},
+    {"EmptyHiddenLayer", "hidden = [64, 64]", "hidden = [64, 0, 64]", {"network.hidden", "1 to 1024"}},
     {"NoToml", "[optimiser]", "[optimiser", {"line "}},
 };
 
@@ -68,6 +71,14 @@ class WrongConfig : public testing::TestWithParam<Wrong> {};
 TEST_P(WrongConfig, IsRefusedByName) {
   const std::string text = replaced(paper_text(), GetParam().from, GetParam().to);
   expect_refused([&] { (void)parse_config(text, "some.toml"); }, "some.toml", GetParam().complaints);
+}
+
+TEST(Config, OneToThreeHiddenLayersAreRead) {
+  for (const auto& [text, hidden] : std::map<std::string, std::vector<int>>{
+           {"[7]", {7}}, {"[64, 1]", {64, 1}}, {"[1024, 1, 12]", {1024, 1, 12}}}) {
+    const Config config = parse_config(replaced(paper_text(), "hidden = [64, 64]", "hidden = " + text), "f");
+    EXPECT_EQ(config.shape.hidden, hidden);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Config, WrongConfig, testing::ValuesIn(wrong),

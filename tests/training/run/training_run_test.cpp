@@ -152,7 +152,7 @@ TEST(TrainingRun, AUsedDirectoryIsLeftAloneUnlessForced) {
   EXPECT_NE(complaint_of(run, config, 1, Start::resume).find("complete, with 60 episodes"),
             std::string::npos);
   (void)train_into(run, other, 2, Start::force, go_on);
-  EXPECT_EQ(load_model(run / "model.safetensors").parameters.shape().hidden1, 8);
+  EXPECT_EQ(load_model(run / "model.safetensors").parameters.shape().hidden, (std::vector{8, 8}));
   EXPECT_FALSE(std::filesystem::exists(run / "best.safetensors"));
   EXPECT_FALSE(std::filesystem::exists(run / "evaluations.csv"));
   EXPECT_EQ(content_of(run / "notes.txt"), "mine");

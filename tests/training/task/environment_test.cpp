@@ -77,7 +77,7 @@ TEST(Environment, AnEpisodeIsPlayedToItsOutcomeAndFinished) {
 }
 
 TEST(Environment, TheLearnerLearnsWhateverItPlays) {
-  LearnerSetup setup{.shape = {.inputs = 1, .hidden1 = 16, .hidden2 = 16, .actions = 2},
+  LearnerSetup setup{.shape = {.inputs = 1, .hidden = {16, 16}, .actions = 2},
                      .learner = {.gamma = 0.9,
                                  .n_step = 1,
                                  .batch = 32,
