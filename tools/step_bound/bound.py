@@ -2,6 +2,7 @@
 """The bound: the most that one call of the root can cost, over every path that the control flow, the loops' bounds and the facts
 allow, in all contexts at once (implicit path enumeration: Li and Malik, 1995)."""
 
+from .facts import matches
 from .linear_program import LinearProgram
 from .refusal import Refusal
 
@@ -158,11 +159,22 @@ class Bound:
 
     def _add_call_facts(self):
         for fact in self.facts:
-            if fact.kind == "calls":
-                meant = [(weight, variable) for context, variable in self.entries.items() if (weight := fact.covers(self.chain(context)))]
-                if meant:
-                    self.used_facts.add(fact.name)
-                    self.lp.row(meant + self._allowance(fact), fact.at_most)
+            if fact.kind != "calls":
+                continue
+            meant = [(weight, variable) for context, variable in self.entries.items() if (weight := fact.covers(self.chain(context)))]
+            if meant:
+                self.used_facts.add(fact.name)
+                self._require_what_it_names(fact, meant)
+                for row in [[one] for one in meant] if fact.contexts else [meant]:
+                    self.lp.row(row + self._allowance(fact), fact.at_most)
+
+    def _require_what_it_names(self, fact, meant):
+        """A compiler that inlines what allows more would make the fact false, and one that merges calls would share its number."""
+        chains = [self.chain(context) for context in self.entries]
+        if any(not any(matches(pattern, chain) for chain in chains) for pattern in fact.plus):
+            raise Refusal(f"the fact [{fact.name}] allows more for calls that are not there")
+        if fact.contexts and len(meant) != fact.contexts:
+            raise Refusal(f"the fact [{fact.name}] is for {fact.contexts} calling contexts, but there are {len(meant)}")
 
     def _allowance(self, fact):
         return [(-more, variable) for context, variable in self.entries.items() if (more := fact.allows_more(self.chain(context)))]

@@ -8,7 +8,8 @@
     because = "..."
     proved_by = "StepFacts.OneInference"  # a test; "trace", `because` and every traced step; or "argument", `because` alone
 
-`plus`, chains too, lets there be one more for each call of them (two where one stands twice). Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
+`plus`, chains too, lets there be one more for each call of them (two where one stands twice). With `contexts` the number is for each calling
+context by itself, and the image has to have exactly so many of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
 `back`, each irreducible part of a function goes back at most so often in one call (a list: one number for each part); `word`, a function, `offset` bytes behind whose first argument a
 word has the value `at_most`, all the time. `when` names a parameter: the fact is left out where that is 0.
 """
@@ -23,7 +24,7 @@ from .refusal import Refusal
 
 KINDS = ("calls", "loop", "back", "word")
 FIELDS = {"at_most", "because", "proved_by"}
-OPTIONAL = {"plus", "offset", "when"}
+OPTIONAL = {"plus", "offset", "when", "contexts"}
 
 
 @dataclass(eq=False)
@@ -36,6 +37,7 @@ class Fact:
     because: str
     proved_by: str
     offset: int = 0
+    contexts: int = 0  # each by itself
 
     def covers(self, chain):
         """How often a chain of functions' names, from the root, is among those meant: each counts."""
@@ -103,4 +105,4 @@ def _fact(path, name, fields, parameters):
             raise Refusal(f"{path}: [{name}]: at_most = '{at_most}' is no number, and none of {', '.join(parameters)}")
         at_most = parameters[at_most]
     return Fact(name, kinds[0], parse_chains(fields[kinds[0]]), at_most, parse_chains(fields.get("plus", [])),
-                fields["because"], fields["proved_by"], fields.get("offset", 0))
+                fields["because"], fields["proved_by"], fields.get("offset", 0), fields.get("contexts", 0))
