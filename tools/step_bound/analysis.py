@@ -44,7 +44,7 @@ class Analysis:
         self.findings = abstract_execution.run(self.program, self.root, words)
 
     def _read_facts(self, frames):
-        parameters = {"frames": frames, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
+        parameters = {"frames": frames, "missed": 0, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
         return read_facts(self.facts, parameters)
 
     def _weights_slice(self):

@@ -10,7 +10,7 @@
 
 `plus`, chains too, lets there be one more for each call of them (two where one stands twice). With `contexts` the number is for each calling
 context by itself, and the image has to have exactly so many of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
-`back`, each irreducible part of a function goes back at most so often in one call (a list: one number for each part); `word`, a function, `offset` bytes behind whose first argument a
+`turns`, all loops of a function that the analysis could not count go back at most so often in one call, together; `back`, each irreducible part of a function goes back at most so often in one call (a list: one number for each part); `word`, a function, `offset` bytes behind whose first argument a
 word has the value `at_most`, all the time. `when` names a parameter: the fact is left out where that is 0.
 """
 
@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from .functions import plain_name, short_name
 from .refusal import Refusal
 
-KINDS = ("calls", "loop", "back", "word")
+KINDS = ("calls", "loop", "turns", "back", "word")
 FIELDS = {"at_most", "because", "proved_by"}
 OPTIONAL = {"plus", "offset", "when", "contexts"}
 
