@@ -14,6 +14,7 @@
 #include "firmware/core/wheel_loop.hpp"
 #include "firmware/loop/built_in_node.hpp"
 #include "firmware/loop/gated_node.hpp"
+#include "firmware/ports/bare_metal/slcan.hpp"
 
 namespace striker {
 namespace {
@@ -172,6 +173,12 @@ TEST(StepFacts, SendsOneOfEach) {
     const int faults = sent[can::layout<can::FaultReport>.info.id];
     EXPECT_LE(frames.frames().size(), 8U + static_cast<std::size_t>(faults));
     EXPECT_TRUE(faults == 0 || actions.state == State::fault);
+  }
+}
+
+TEST(StepFacts, AFrameIs22Letters) {
+  for (std::uint8_t length = 0; length <= 8; ++length) {
+    EXPECT_LE(bare_metal::slcan_line({.id = 0x7FF, .length = length, .data = {}}).length, 22U);
   }
 }
 

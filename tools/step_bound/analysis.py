@@ -7,7 +7,7 @@ import re
 from . import abstract_execution
 from .bound import Bound
 from .cycles import TABLES, Cycles, memory_words
-from .facts import read_facts
+from .facts import is_named, read_facts
 from .functions import Program, plain_name, short_name
 from .image import Image
 from .refusal import Refusal
@@ -45,7 +45,9 @@ class Analysis:
 
     def _read_facts(self, frames):
         parameters = {"frames": frames, "missed": 0, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
-        return read_facts(self.facts, parameters)
+        names = [self.program.symbols[start][0] for start in self.reachable]
+        return [fact for fact in read_facts(self.facts, parameters)
+                if not fact.image_with or any(is_named(name, fact.image_with) for name in names)]
 
     def _weights_slice(self):
         """WeightsCheck::words_a_tick, from the words that the image says it has."""
