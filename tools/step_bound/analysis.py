@@ -35,16 +35,16 @@ def accesses_of(block):
 class Analysis:
     """Of one image, for a robot whose commands are `late`, or act at once."""
 
-    def __init__(self, path, root=STEP, late=True, facts=FACTS):
+    def __init__(self, path, root=STEP, late=True, facts=FACTS, missed=0):
         self.program = Program(Image(path))
         self.root = self.program.find(root)
         self.reachable = self.program.reachable(self.root)
-        self.late, self.facts = late, facts
+        self.late, self.facts, self.missed = late, facts, missed
         words = [(fact.chains[0][0][0], "r0", fact.offset, fact.at_most) for fact in self._read_facts(0) if fact.kind == "word"]
         self.findings = abstract_execution.run(self.program, self.root, words)
 
     def _read_facts(self, frames):
-        parameters = {"frames": frames, "missed": 0, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
+        parameters = {"frames": frames, "missed": self.missed, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
         names = [self.program.symbols[start][0] for start in self.reachable]
         return [fact for fact in read_facts(self.facts, parameters)
                 if not fact.image_with or any(is_named(name, fact.image_with) for name in names)]
