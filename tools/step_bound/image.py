@@ -32,10 +32,12 @@ class Image:
             raise Refusal(f"{self.path}: no symbols: link it without --strip-all")
         self.functions, self.labels, self.objects = [], [], []  # (mangled name, address, size), (name, address) of both others
         self.sized_objects = []  # (mangled name, address, size)
+        self.all_symbols = []    # (mangled name, address)
         for symbol in table.iter_symbols():
             if symbol["st_shndx"] == "SHN_UNDEF":
                 continue
             address = symbol["st_value"] & ~1
+            self.all_symbols.append((symbol.name, address))
             if symbol["st_info"]["type"] == FUNCTION:
                 self.functions.append((symbol.name, address, symbol["st_size"]))
             elif symbol["st_info"]["type"] == OBJECT:
