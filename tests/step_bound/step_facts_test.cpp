@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 #include <map>
+#include <optional>
 
 #include "firmware/can/reporter.hpp"
 #include "firmware/core/decision_clock.hpp"
@@ -13,7 +14,9 @@
 #include "firmware/core/supervision/supervisor.hpp"
 #include "firmware/core/wheel_loop.hpp"
 #include "firmware/loop/built_in_node.hpp"
+#include "firmware/loop/clock_ticks.hpp"
 #include "firmware/loop/gated_node.hpp"
+#include "firmware/ports/bare_metal/board_clock.hpp"
 #include "firmware/ports/bare_metal/slcan.hpp"
 
 namespace striker {
@@ -174,6 +177,20 @@ TEST(StepFacts, SendsOneOfEach) {
     EXPECT_LE(frames.frames().size(), 8U + static_cast<std::size_t>(faults));
     EXPECT_TRUE(faults == 0 || actions.state == State::fault);
   }
+}
+
+// Without the padding behind its last member.
+TEST(StepFacts, AMeasurementHas29Bytes) {
+  using Measurement = loop::TickMeasurement<bare_metal::BoardClock::Time>;
+  struct OfTheBoard {  // its size_t has 32 bits
+    loop::Wake<bare_metal::BoardClock::Time> wake;
+    bare_metal::BoardClock::Time execution;
+    std::optional<bare_metal::BoardClock::Time> latency;
+    std::uint32_t received;
+    bool full;
+  };
+  static_assert(sizeof(Measurement::received) == sizeof(std::size_t));
+  EXPECT_LE(offsetof(OfTheBoard, full) + sizeof(bool), 29U);
 }
 
 TEST(StepFacts, AFrameIs22Letters) {
