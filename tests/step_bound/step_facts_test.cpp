@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstring>
 #include <map>
-#include <optional>
 
 #include "firmware/can/reporter.hpp"
 #include "firmware/core/decision_clock.hpp"
@@ -14,10 +13,7 @@
 #include "firmware/core/supervision/supervisor.hpp"
 #include "firmware/core/wheel_loop.hpp"
 #include "firmware/loop/built_in_node.hpp"
-#include "firmware/loop/clock_ticks.hpp"
 #include "firmware/loop/gated_node.hpp"
-#include "firmware/ports/bare_metal/board_clock.hpp"
-#include "firmware/ports/bare_metal/slcan.hpp"
 
 namespace striker {
 namespace {
@@ -176,26 +172,6 @@ TEST(StepFacts, SendsOneOfEach) {
     const int faults = sent[can::layout<can::FaultReport>.info.id];
     EXPECT_LE(frames.frames().size(), 8U + static_cast<std::size_t>(faults));
     EXPECT_TRUE(faults == 0 || actions.state == State::fault);
-  }
-}
-
-// Without the padding behind its last member.
-TEST(StepFacts, AMeasurementHas29Bytes) {
-  using Measurement = loop::TickMeasurement<bare_metal::BoardClock::Time>;
-  struct OfTheBoard {  // its size_t has 32 bits
-    loop::Wake<bare_metal::BoardClock::Time> wake;
-    bare_metal::BoardClock::Time execution;
-    std::optional<bare_metal::BoardClock::Time> latency;
-    std::uint32_t received;
-    bool full;
-  };
-  static_assert(sizeof(Measurement::received) == sizeof(std::size_t));
-  EXPECT_LE(offsetof(OfTheBoard, full) + sizeof(bool), 29U);
-}
-
-TEST(StepFacts, AFrameIs22Letters) {
-  for (std::uint8_t length = 0; length <= 8; ++length) {
-    EXPECT_LE(bare_metal::slcan_line({.id = 0x7FF, .length = length, .data = {}}).length, 22U);
   }
 }
 

@@ -33,12 +33,12 @@ class Bound:
         self.loop_facts = []    # (fact without one, context, head, turns for one entry)
         self.backs = {}    # (context, irreducible part): how often it goes back at most in one call
         self.used_facts, self.unbounded = set(), []
-        self.turns_together = {}  # (fact, context) -> the variables of what goes back
+        self.turns_together = {}  # (fact, context) -> [(head, the variables of what goes back to it)]
         self._shared_rows = {}
         self._add_context((), root, None)
         self._add_call_facts()
-        for (fact, context), back in self.turns_together.items():
-            self.lp.row([(1, v) for v in back] + [(-fact.at_most, self.entries[context])], 0)
+        for (fact, context), loops in self.turns_together.items():
+            self.lp.row([(1, v) for _, back in loops for v in back] + [(-fact.at_most, self.entries[context])], 0)
         for (fact, _), rows in self._shared_rows.items():
             self.lp.row(rows + self._allowance(fact), 0)
         if self.unbounded:
@@ -133,7 +133,7 @@ class Bound:
         facts, together = self.facts_of("loop", context), self.facts_of("turns", context)
         for fact in together:
             self._bound_turns(context, loop, fact.at_most, back, entering)
-            self.turns_together.setdefault((fact, context), []).extend(back)
+            self.turns_together.setdefault((fact, context), []).append((loop.head, back))
         if not facts and not together:
             called_by = plain_name(self.chain(context[:-1])[-1]) if context else "nobody"
             self.unbounded.append(f"{plain_name(function.name)}, called by {called_by}: the loop at {loop.head:#x}")

@@ -6,7 +6,8 @@
                                           # below A; "f<*T*>" with a template's arguments
     at_most = 1                           # in one call of the root; a number, or a parameter such as "frames"
     because = "..."
-    proved_by = "StepFacts.OneInference"  # a test; "trace", `because` and every traced step; or "argument", `because` alone
+    proved_by = "StepFacts.OneInference"  # a test; "trace", `because` and every traced step; "argument", `because` alone; or "assumed",
+                                          # of a device: told with the bound
 
 `plus`, chains too, lets there be one more for each call of them (two where one stands twice). With `contexts` the number is for each calling
 context by itself, and the image has to have exactly so many of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
