@@ -4,6 +4,7 @@
 an example that can be reckoned by hand. The flow facts for OTAWA are well formed, and have each loop's number."""
 
 import argparse
+import json
 import os
 import re
 import subprocess
@@ -13,9 +14,10 @@ from xml.etree import ElementTree
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-sys.path.insert(0, os.path.join(ROOT, "tools"))
+sys.path[:0] = [os.path.join(ROOT, "tools"), os.path.join(ROOT, "tests", "ports")]
 sys.dont_write_bytecode = True
 
+import image_test  # noqa: E402
 from step_bound import analysis, ffx, tick  # noqa: E402
 from step_bound.refusal import Refusal  # noqa: E402
 
@@ -105,13 +107,19 @@ def check_flow_facts(image):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--images", required=True, help="a board's folder of images")
-    parser.add_argument("--cpu", required=True)
+    parser.add_argument("--board", required=True)
+    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser.add_argument("--images", required=True, help="the board's build folder")
+    parser.add_argument("--policy", help="build the controller there, with this one")
     parser.add_argument("--interrupt", action="append", default=[], help="that the board has; may be repeated")
     parser.add_argument("--needs", action="append", default=[], metavar="FACT=FUNCTION", help="a fact without which FUNCTION is refused; may be repeated")
     arguments = parser.parse_args()
+    with open(arguments.boards, encoding="utf-8") as file:
+        board = next(board for board in json.load(file) if board["name"] == arguments.board)
+    if arguments.policy:
+        image_test.build(board, arguments.policy, arguments.images, ("striker-controller",))
     check_response_times()
-    check_tick(os.path.join(arguments.images, "bin", "striker-controller.elf"), arguments.cpu, sorted(arguments.interrupt),
+    check_tick(os.path.join(arguments.images, "bin", "striker-controller.elf"), board["cpu"], sorted(arguments.interrupt),
                dict(need.split("=") for need in arguments.needs))
     bench = os.path.join(arguments.images, "bin", "striker-bench.elf")
     if os.path.exists(bench):

@@ -25,15 +25,19 @@ MAY_BE_LOOSE = {"time-goes-on", "a-motion-begins-with-an-order", "beginning-shif
                 "speeds-of-the-ball", "division-without-an-instruction", "signed-division-without-an-instruction"}
 
 
-def follow(board, image, found, bound, words):
-    checker = Checker(bound)
-    functions = [found.program.functions[start] for start in found.reachable]
+def spans_of(found):
+    """(start, size) of all code that the root may run."""
     spans = []
-    for function in functions:
-        addresses = [insn for block in function.blocks.values() for insn in block.instructions]
+    for start in found.reachable:
+        addresses = [insn for block in found.program.functions[start].blocks.values() for insn in block.instructions]
         first, last = min(i.address for i in addresses), max(i.next for i in addresses)
         spans.append((first, last - first))
-    with qemu_trace.traced(board, image, words, spans) as lines:
+    return spans
+
+
+def follow(board, image, found, bound, words):
+    checker = Checker(bound)
+    with qemu_trace.traced(board, image, words, spans_of(found)) as lines:
         for instructions, edges in Walker(bound, found.root).calls(qemu_trace.blocks(lines, found.program.instructions)):
             checker.check(instructions, edges)
     return checker
