@@ -48,8 +48,8 @@ def command(board, image, words):
     return machine(board, image) + ["-serial", "none"] + _semihosting(words)
 
 
-def _switch_on(processor, path, process):
-    """QEMU leaves the processor off: asked over QMP, it starts at the image's entry."""
+def _switch_on(processor, path, process, starts=True):
+    """QEMU leaves the processor off: asked over QMP, it starts at the image's entry, or waits there for a debugger."""
     connection = socket.socket(socket.AF_UNIX)
     for _ in range(200):
         if process.poll() is not None:
@@ -67,7 +67,7 @@ def _switch_on(processor, path, process):
         {"execute": "qmp_capabilities"},
         {"execute": "qom-set", "arguments": {"path": processor, "property": "start-powered-off", "value": False}},
         {"execute": "system_reset"},
-        {"execute": "cont"},
+        *([{"execute": "cont"}] if starts else []),
     ):
         stream.write(json.dumps(request) + "\n")
         stream.flush()

@@ -7,7 +7,7 @@ CODE: the program's source changed; its bound has to rise.
 """
 
 from small_programs import PROGRAMS
-from step_bound import abstract_execution, bound, decoder, jump_tables, linear_program, loops, semantics, state, values
+from step_bound import abstract_execution, bound, decoder, functions, jump_tables, linear_program, loops, semantics, state, values
 
 M4, M0, M55 = 0, 1, 2  # of small_programs.CORES
 
@@ -91,6 +91,13 @@ ANALYSIS = {
     "a loop that is not seen": ("data", M4, lambda: replaced(loops, "_find", lambda old: lambda function: (
         old(function), setattr(function, "loops", []))[0])),
     "two decoders that differ in a number": ("nested", M4, lambda: replaced(decoder, "disassemble", other_number)),
+    "a call that nobody comes back from, taken to come back": ("never comes back", M4, lambda: replaced(
+        functions.Program, "_is_last", lambda old: lambda *rest: False)),
+    "a register of the callee's, taken to be kept": ("count of a callee", M0, lambda: replaced(
+        abstract_execution, "KEPT_BY_CALLEES", lambda old: ("r0", "r1", "r2", "r3", *old))),
+    "turns of a device's wait that are not counted": ("waiting", M4, lambda: replaced(bound.Bound, "_bound_loop", lambda old: lambda its, context, function, loop: (
+        old(its, context, function, loop), [its.lp.row([(1, v)], 0) for start in loop.latches for target, kind in function.blocks[start].successors
+                                            if (v := its.edges.get((context, start, target, kind))) is not None and target == loop.head])[0])),
     "a program for GLPK that is another": ("nested", M4, lambda: replaced(linear_program.LinearProgram, "_problem", looser_problem)),
 }
 
@@ -99,6 +106,12 @@ FACTS = {
     "a fact that is missing": ("data", M4, []),
     "a false fact: a call that is never made": ("tail", M4, [("calls", "helper", 0)]),
     "a false fact: a quotient of 16 bits": ("division", M0, [("back", "__udivsi3", 0)]),
+    "a wait for a device without a bound": ("waiting", M4, []),
+    "a wait for a device, a turn too few": ("waiting", M4, [("turns", "work", 2)]),
+    "a FIFO that is one deeper than the fact": ("reception", M0, [("turns", "work", 2)]),
+    "a call in one context, where there are two": ("two readers", M4, [("calls", "read", 2, {"contexts": 2})]),
+    "a fact that allows more for a call that is not there": ("two readers", M4, [("calls", "read", 0, {"plus": ["write"]})]),
+    "a false fact: fewer calls in a context": ("two readers", M4, [("calls", "read", 1, {"contexts": 1})]),
     "a false fact: a signed quotient of 26 bits": ("signed division", M0, [("back", "__divsi3", [2, 3])]),
 }
 
@@ -107,6 +120,7 @@ CODE = {
     "an inner loop one turn longer": ("triangular", "k < i;", "k <= i;"),
     "a call added": ("tail", "return helper(x)", "return helper(helper(x))"),
     "an exit removed": ("chain", "low(11)", "low(12)"),
+    "an interrupt's handler that takes one thing more": ("reception", "sink = x; return x + 1", "sink = x; sink = x; return x + 1"),
     "a longer case": ("switch", "sink = 7; return 8", "sink = 7; sink = 8; sink = 9; return 8"),
 }
 

@@ -24,18 +24,25 @@ def own_instructions(instructions, listed):
 
 
 def blocks(lines, instructions):
-    """The addresses of each block that ran, as a tuple that is the same object each time."""
-    known, reading = {}, []
+    """The addresses of each block that ran, as a tuple that is the same object each time. QEMU tells one before it runs, and
+    takes it back where an interrupt comes first."""
+    known, reading, told = {}, [], None
     for line in lines:
         if line[0] == "T" and (match := TRACE.match(line)):
             if reading:
                 known[reading[0]] = own_instructions(instructions, reading)
                 reading = []
-            yield known[int(match[1], 16)]
+            if told is not None:
+                yield told
+            told = known[int(match[1], 16)]
+        elif line.startswith("Stopped execution"):
+            told = None
         elif line.startswith("IN:"):
             reading = []
         elif code := GUEST_CODE.match(line):
             reading.append(int(code[1], 16))
+    if told is not None:
+        yield told
 
 
 @contextlib.contextmanager

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Small programs in C. `main` calls `work`, whose bound is proved, with what makes it run longest.
 
-    facts           [(kind, chain, at most)]: see tools/step_bound/facts.py
+    facts           [(kind, chain, at most, {what else})]: see tools/step_bound/facts.py; the last may be left out
     loose           the share by which the bound may be above the longest run, and why in a comment; 0 without it
     refused         texts of which a refusal may hold one; always_refused: it must
     only            the one core that it is for
@@ -52,6 +52,19 @@ PROGRAMS = {
                             only="cortex-m55"),
     "helium": program("#include <arm_mve.h>\nshort a[32], b[32];\nAPART int work(int x) { int s = x; for (int i = 0; i < 32; i += 8) s = vmladavaq_s16(s, vld1q_s16(a + i), vld1q_s16(b + i));"
                       " return s; }", only="cortex-m55"),
+    # As a port that waits for a device, a FIFO that is emptied, and an end that nobody comes back from.
+    "waiting": program("volatile unsigned busy, full; APART unsigned work(unsigned x) { while (busy != 0) busy = busy - 1; sink = x;"
+                       " while (full != 0) { full = full - 1; sink = x; } return x; }", "busy = 2; full = 3; sink = work(1)",
+                       facts=[("turns", "work", 5)], refused=("the loop at",), loose=0.5),
+    "reception": program("volatile unsigned pending; APART unsigned read(unsigned x) { sink = x; return x + 1; } APART unsigned work(unsigned x) { while (pending != 0) { x = read(x);"
+                         " pending = pending - 1; } return x; }", "pending = 4; sink = work(1)", facts=[("turns", "work", 4)], refused=("the loop at",), loose=0.25),
+    "never comes back": program("APART __attribute__((noreturn)) void stop(void) { for (;;) sink = 1; }\nAPART unsigned work(unsigned x) { sink = x; if (x > 9) stop(); sink = 2; return x; }"),
+    "count of a callee": program("__attribute__((noipa)) unsigned seven(unsigned x) { sink = x; return 7; }\n"
+                                 "APART unsigned work(unsigned x) { unsigned n = seven(3); for (unsigned i = 0; i != n; ++i) sink = x; return n; }"),
+    "two readers": program("APART unsigned read(unsigned n) { unsigned s = 0; if (n > 1) { for (int i = 0; i < 9; ++i) sink = i; s = n; } return s; }\n"
+                           "APART unsigned top(unsigned n) { unsigned s = 0; for (unsigned i = 0; i < 3; ++i) if (data[i] != n) s += read(i); return s; }\n"
+                           "APART unsigned work(unsigned x) { return top(x) + 1; }", "sink = work(1); sink = work(2)", facts=[("calls", "read", 2, {"contexts": 1})],
+                           loose=0.5),
     "recursion": program("APART unsigned work(unsigned x) { return x < 2 ? x : work(x - 1) + work(x - 2); }", refused=("a recursion",), always_refused=True),
     "indirect": program("unsigned (*chosen)(unsigned);\nAPART unsigned work(unsigned x) { return chosen(x) + 1; }", "chosen = work; (void)sink",
                         refused=("an indirect call", "an indirect jump"), always_refused=True),

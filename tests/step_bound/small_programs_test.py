@@ -17,7 +17,7 @@ import qemu_trace  # noqa: E402
 from small_programs import CORES, LEVELS, PROGRAMS  # noqa: E402
 from step_bound import abstract_execution  # noqa: E402
 from step_bound.bound import Bound  # noqa: E402
-from step_bound.facts import Fact, parse_chain  # noqa: E402
+from step_bound.facts import Fact, parse_chain, parse_chains  # noqa: E402
 from step_bound.functions import Program  # noqa: E402
 from step_bound.image import Image  # noqa: E402
 from step_bound.refusal import Refusal  # noqa: E402
@@ -73,8 +73,9 @@ def compile_program(folder, core, level, source):
 
 
 def facts_of(program):
-    return [Fact(f"fact {i}", kind, [parse_chain(chain)], most, [], "of the program", "QEMU")
-            for i, (kind, chain, most) in enumerate(program.get("facts", ()))]
+    return [Fact(f"fact {i}", kind, [parse_chain(chain)], most, parse_chains(more.get("plus", [])), "of the program", "QEMU",
+                 contexts=more.get("contexts", 0), more=more.get("more", 1))
+            for i, (kind, chain, most, more) in enumerate((*fact, {})[:4] for fact in program.get("facts", ()))]
 
 
 def bound_of(image, program):

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "firmware/can/reporter.hpp"
+#include "firmware/core/decision_clock.hpp"
 #include "firmware/core/supervision/command_check.hpp"
 #include "firmware/core/supervision/supervisor.hpp"
 #include "firmware/core/wheel_loop.hpp"
@@ -109,6 +110,25 @@ TEST(StepFacts, TheLoopsOwnWishIsNeverRefused) {
             .set_point = {set_point, set_point}};
         ASSERT_EQ(check_command(robot, wanted, {true, true, true, measured}), Fault::none)
             << set_point << " " << speed;
+      }
+    }
+  }
+}
+
+// In every phase up to four periods after the last decision, whatever came between.
+TEST(StepFacts, ANewPictureIsDecidedOn) {
+  for (unsigned bits = 0; bits < 1U << 3U; ++bits) {
+    for (std::uint32_t first = 0; first <= 4 * core::decision_period_ticks; ++first) {
+      for (std::uint32_t phase = 0; phase <= 4 * core::decision_period_ticks; ++phase) {
+        const bool on_each_picture = (bits & 1U) != 0;
+        core::DecisionClock clock;
+        if ((bits & 2U) != 0) {
+          clock.make_due(0);
+        }
+        (void)clock.at(first, (bits & 4U) != 0, on_each_picture);
+        const core::DecisionDue due = clock.at(first + phase, true, on_each_picture);
+        ASSERT_NE(due, core::DecisionDue::extrapolated);
+        ASSERT_NE(due, core::DecisionDue::provisional);
       }
     }
   }

@@ -124,6 +124,7 @@ class Checker:
         for context in calls:
             self._check_loops(context, edges, calls[context])
         self._check_shared_turns(edges, calls)
+        self._check_turns_together(edges, calls)
         if instructions > self.longest:
             self.longest, self.longest_edges = instructions, dict(edges)
 
@@ -136,7 +137,8 @@ class Checker:
     def _check_facts(self, calls):
         for fact in self.bound.facts:
             if fact.kind == "calls":
-                total = sum(n * self._covers(fact, context) for context, n in calls.items())
+                found = [n * self._covers(fact, context) for context, n in calls.items()]
+                total = max(found) if fact.contexts else sum(found)
                 allowed = fact.at_most + self._allowance(fact, calls)
                 if total == allowed and total:
                     self.attained.add(fact.name)
@@ -185,6 +187,15 @@ class Checker:
                 self.attained.add(fact.name)
             if beyond > 0:
                 raise Contradiction(f"the fact {fact.name}: {beyond} turns too many")
+
+    def _check_turns_together(self, edges, calls):
+        for (fact, context), loops in self.bound.turns_together.items():
+            called, function, heads = calls.get(context, 0), self.function(context), {head for head, _ in loops}
+            turned = sum(self._turned(context, function, loop, edges, called)[0] for loop in function.loops if loop.head in heads)
+            if turned == fact.at_most * called > 0:
+                self.attained.add(fact.name)
+            if turned > fact.at_most * called:
+                raise Contradiction(f"the fact {fact.name}: {turned} turns in {called} calls, not {fact.at_most} each")
 
     @staticmethod
     def _turned(context, function, loop, edges, calls):

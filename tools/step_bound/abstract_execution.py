@@ -19,6 +19,7 @@ from .values import Pointer
 
 MOST_TURNS = 2000
 POINTER_ARGUMENTS = ("r0", "r1", "r2", "r3")
+KEPT_BY_CALLEES = tuple(f"r{i}" for i in range(4, 12))  # by the calling convention, also where their stack words were lost
 BACK = "back"
 
 
@@ -57,6 +58,9 @@ class Execution:
         if stack is None or after.registers.get(STACK) != stack:
             raise Refusal(f"{function.name}: the stack pointer does not come back as it was")
         after = after.copy()
+        for register in KEPT_BY_CALLEES:
+            if is_lasting(state.registers.get(register)):
+                after.put(register, state.registers[register])
         after.put("r12", None)
         after.put("lr", None)
         after.flags = None
@@ -127,6 +131,8 @@ class Execution:
             state = self.call(block.callee, state, context + (block.last.address,))
             if state is None:
                 return []
+            if not block.successors:
+                raise Refusal(f"a call that returns where its function ends: {block.last}")
         return self._remember(block, branches(state, block), context)
 
     def _remember(self, block, edges, context):
@@ -186,6 +192,11 @@ class Execution:
                 leaving.pop(BACK, None)
                 return leaving
             state = wider
+
+
+def is_lasting(value):
+    """Its name, if it has one, is never given anew."""
+    return isinstance(value, int) or isinstance(value, Pointer) and (value.base == STACK or value.base.startswith(("argument ", "caller's ")))
 
 
 def insn_decides(block):

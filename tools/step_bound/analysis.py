@@ -7,7 +7,7 @@ import re
 from . import abstract_execution
 from .bound import Bound
 from .cycles import TABLES, Cycles, memory_words
-from .facts import read_facts
+from .facts import is_named, read_facts
 from .functions import Program, plain_name, short_name
 from .image import Image
 from .refusal import Refusal
@@ -35,17 +35,19 @@ def accesses_of(block):
 class Analysis:
     """Of one image, for a robot whose commands are `late`, or act at once."""
 
-    def __init__(self, path, root=STEP, late=True, facts=FACTS):
+    def __init__(self, path, root=STEP, late=True, facts=FACTS, missed=0):
         self.program = Program(Image(path))
         self.root = self.program.find(root)
         self.reachable = self.program.reachable(self.root)
-        self.late, self.facts = late, facts
-        words = [(fact.chains[0][0][0], "r0", fact.offset, fact.at_most) for fact in self._read_facts(0) if fact.kind == "word"]
+        self.late, self.facts, self.missed = late, facts, missed
+        words = [(fact.chains[0][0][0], "r0", fact.offset, fact.at_most) for fact in self.facts_for(0) if fact.kind == "word"]
         self.findings = abstract_execution.run(self.program, self.root, words)
 
-    def _read_facts(self, frames):
-        parameters = {"frames": frames, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
-        return read_facts(self.facts, parameters)
+    def facts_for(self, frames):
+        parameters = {"frames": frames, "missed": self.missed, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
+        names = [self.program.symbols[start][0] for start in self.reachable]
+        return [fact for fact in read_facts(self.facts, parameters)
+                if not fact.image_with or any(is_named(name, fact.image_with) for name in names)]
 
     def _weights_slice(self):
         """WeightsCheck::words_a_tick, from the words that the image says it has."""
@@ -55,7 +57,7 @@ class Analysis:
 
     def bound(self, frames=24, cpu=None):
         """In instructions, or in cycles of `cpu`."""
-        read = self._read_facts(frames)
+        read = self.facts_for(frames)
         if cpu is None:
             return Bound(self.program, self.root, self.findings, read)
         if cpu not in TABLES:
@@ -65,7 +67,7 @@ class Analysis:
 
     def accesses(self, frames):
         """Fetches and accesses to memory, of a word or less each, that a step makes at most."""
-        return Bound(self.program, self.root, self.findings, self._read_facts(frames), accesses_of).total
+        return Bound(self.program, self.root, self.findings, self.facts_for(frames), accesses_of).total
 
     def worst_path(self, bound):
         """[(cost, calls, function)] of the path that the bound is for, the costliest first."""

@@ -2,6 +2,8 @@
 """The bound: the most that one call of the root can cost, over every path that the control flow, the loops' bounds and the facts
 allow, in all contexts at once (implicit path enumeration: Li and Malik, 1995)."""
 
+from .facts import matches
+from .functions import plain_name
 from .linear_program import LinearProgram
 from .refusal import Refusal
 
@@ -31,9 +33,12 @@ class Bound:
         self.loop_facts = []    # (fact without one, context, head, turns for one entry)
         self.backs = {}    # (context, irreducible part): how often it goes back at most in one call
         self.used_facts, self.unbounded = set(), []
+        self.turns_together = {}  # (fact, context) -> [(head, the variables of what goes back to it)]
         self._shared_rows = {}
         self._add_context((), root, None)
         self._add_call_facts()
+        for (fact, context), loops in self.turns_together.items():
+            self.lp.row([(1, v) for _, back in loops for v in back] + [(-fact.at_most, self.entries[context])], 0)
         for (fact, _), rows in self._shared_rows.items():
             self.lp.row(rows + self._allowance(fact), 0)
         if self.unbounded:
@@ -103,6 +108,9 @@ class Bound:
         if not entering or not back:
             return
         turns = self.findings.turns.get((context, loop.head))
+        if not any(edge in self.edges for edge in self._exits(context, function, loop)):
+            self.lp.row([(1, v) for v in back], 0)  # it is never left: no call that returns runs it
+            return
         if turns is None:
             self._bound_by_facts(context, function, loop, back, entering)
             return
@@ -112,14 +120,23 @@ class Bound:
             if variable is not None and passes is not None and passes < self._implied_passes(context, function, loop, edge[0]):
                 self.lp.row([(1, variable)] + [(-passes, v) for v in entering], 0)
 
+    @staticmethod
+    def _exits(context, function, loop):
+        return [(context, start, target, kind) for start in loop.body for target, kind in function.blocks[start].successors
+                if target not in loop.body]
+
     def _bound_turns(self, context, loop, turns, back, entering):
         self.turns[(context, loop.head)] = turns
         self.lp.row([(1, v) for v in back] + [(-turns, v) for v in entering], 0)
 
     def _bound_by_facts(self, context, function, loop, back, entering):
-        facts = self.facts_of("loop", context)
-        if not facts:
-            self.unbounded.append(f"{function.name}: the loop at {loop.head:#x}")
+        facts, together = self.facts_of("loop", context), self.facts_of("turns", context)
+        for fact in together:
+            self._bound_turns(context, loop, fact.at_most, back, entering)
+            self.turns_together.setdefault((fact, context), []).append((loop.head, back))
+        if not facts and not together:
+            called_by = plain_name(self.chain(context[:-1])[-1]) if context else "nobody"
+            self.unbounded.append(f"{plain_name(function.name)}, called by {called_by}: the loop at {loop.head:#x}")
         for fact in facts:
             turns = turns_of(fact.at_most, function, loop)
             if not fact.plus:
@@ -158,11 +175,22 @@ class Bound:
 
     def _add_call_facts(self):
         for fact in self.facts:
-            if fact.kind == "calls":
-                meant = [(weight, variable) for context, variable in self.entries.items() if (weight := fact.covers(self.chain(context)))]
-                if meant:
-                    self.used_facts.add(fact.name)
-                    self.lp.row(meant + self._allowance(fact), fact.at_most)
+            if fact.kind != "calls":
+                continue
+            meant = [(weight, variable) for context, variable in self.entries.items() if (weight := fact.covers(self.chain(context)))]
+            if meant:
+                self.used_facts.add(fact.name)
+                self._require_what_it_names(fact, meant)
+                for row in [[one] for one in meant] if fact.contexts else [meant]:
+                    self.lp.row(row + self._allowance(fact), fact.at_most)
+
+    def _require_what_it_names(self, fact, meant):
+        """A compiler that inlines what allows more would make the fact false, and one that merges calls would share its number."""
+        chains = [self.chain(context) for context in self.entries]
+        if any(not any(matches(pattern, chain) for chain in chains) for pattern in fact.plus):
+            raise Refusal(f"the fact [{fact.name}] allows more for calls that are not there")
+        if fact.contexts and len(meant) != fact.contexts:
+            raise Refusal(f"the fact [{fact.name}] is for {fact.contexts} calling contexts, but there are {len(meant)}")
 
     def _allowance(self, fact):
         return [(-more, variable) for context, variable in self.entries.items() if (more := fact.allows_more(self.chain(context)))]

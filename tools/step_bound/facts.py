@@ -6,11 +6,14 @@
                                           # below A; "f<*T*>" with a template's arguments
     at_most = 1                           # in one call of the root; a number, or a parameter such as "frames"
     because = "..."
-    proved_by = "StepFacts.OneInference"  # a test; "trace", `because` and every traced step; or "argument", `because` alone
+    proved_by = "StepFacts.OneInference"  # a test; "trace", `because` and every traced step; "argument", `because` alone; or "assumed",
+                                          # of a device: told with the bound
 
-`plus`, chains too, lets there be one more for each call of them (two where one stands twice). Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
-`back`, each irreducible part of a function goes back at most so often in one call (a list: one number for each part); `word`, a function, `offset` bytes behind whose first argument a
-word has the value `at_most`, all the time. `when` names a parameter: the fact is left out where that is 0.
+`plus`, chains too, lets there be one more for each call of them (two where one stands twice). With `contexts` the number is for each calling
+context by itself, and the image has to have exactly so many of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
+`turns`, all loops of a function that the analysis could not count go back at most so often in one call, together; `back`, each irreducible part of a function goes back at most so often in one call (a list: one number for each part); `word`, a function, `offset` bytes behind whose first argument a
+word has the value `at_most`, all the time. `when` names a parameter: the fact is left out where that is 0. `image_with` names a function, as chains do: it is left out where the
+root never calls that. With `more` each call of `plus` allows so many more.
 """
 
 import fnmatch
@@ -21,9 +24,9 @@ from dataclasses import dataclass
 from .functions import plain_name, short_name
 from .refusal import Refusal
 
-KINDS = ("calls", "loop", "back", "word")
+KINDS = ("calls", "loop", "turns", "back", "word")
 FIELDS = {"at_most", "because", "proved_by"}
-OPTIONAL = {"plus", "offset", "when"}
+OPTIONAL = {"plus", "more", "offset", "when", "contexts", "image_with"}
 
 
 @dataclass(eq=False)
@@ -36,6 +39,9 @@ class Fact:
     because: str
     proved_by: str
     offset: int = 0
+    contexts: int = 0  # each by itself
+    more: int = 1
+    image_with: str = ""
 
     def covers(self, chain):
         """How often a chain of functions' names, from the root, is among those meant: each counts."""
@@ -50,8 +56,8 @@ class Fact:
         return self.at_most[part]
 
     def allows_more(self, chain):
-        """How many more a call of such a chain allows: each pattern one."""
-        return sum(matches(pattern, chain) for pattern in self.plus)
+        """How many more a call of such a chain allows: each pattern one, or `more`."""
+        return self.more * sum(matches(pattern, chain) for pattern in self.plus)
 
 
 def matches(pattern, chain):
@@ -103,4 +109,5 @@ def _fact(path, name, fields, parameters):
             raise Refusal(f"{path}: [{name}]: at_most = '{at_most}' is no number, and none of {', '.join(parameters)}")
         at_most = parameters[at_most]
     return Fact(name, kinds[0], parse_chains(fields[kinds[0]]), at_most, parse_chains(fields.get("plus", [])),
-                fields["because"], fields["proved_by"], fields.get("offset", 0))
+                fields["because"], fields["proved_by"], fields.get("offset", 0), fields.get("contexts", 0), fields.get("more", 1),
+                fields.get("image_with", ""))

@@ -116,6 +116,8 @@ class Program:
                 self.second.check(insn)
                 pending = self._apply_it(insn, pending)
                 flow = flows[address] = self.reader.flow(insn, function)
+                if flow.call is not None and self._is_last(insn, function):
+                    flow.falls = False  # the abstract execution refuses a callee that comes back
                 if self.symbols.get(flow.call, ("",))[0].startswith("__gnu_thumb1_case"):
                     raise Refusal(f"{function.name}: a helper that jumps by its return address: {insn}")
                 inside = [t for t in flow.jumps if self._is_inside(function, t)]
@@ -126,6 +128,15 @@ class Program:
                     break
                 address = insn.next
         return leaders, flows
+
+    def _is_last(self, insn, function):
+        """Nothing of the function follows it, but padding."""
+        after = insn.next
+        while after < function.end and after in self.instructions:
+            if self.instructions[after].operation != "nop":
+                return False
+            after = self.instructions[after].next
+        return True
 
     @staticmethod
     def _apply_it(insn, pending):

@@ -31,14 +31,18 @@ class Image:
         if table is None:
             raise Refusal(f"{self.path}: no symbols: link it without --strip-all")
         self.functions, self.labels, self.objects = [], [], []  # (mangled name, address, size), (name, address) of both others
+        self.sized_objects = []  # (mangled name, address, size)
+        self.all_symbols = []    # (mangled name, address)
         for symbol in table.iter_symbols():
             if symbol["st_shndx"] == "SHN_UNDEF":
                 continue
             address = symbol["st_value"] & ~1
+            self.all_symbols.append((symbol.name, address))
             if symbol["st_info"]["type"] == FUNCTION:
                 self.functions.append((symbol.name, address, symbol["st_size"]))
             elif symbol["st_info"]["type"] == OBJECT:
                 self.objects.append((symbol.name, symbol["st_value"]))
+                self.sized_objects.append((symbol.name, symbol["st_value"], symbol["st_size"]))
             elif symbol["st_info"]["type"] == UNTYPED and symbol.name and not symbol.name.startswith("$"):
                 self.labels.append((symbol.name, address))
         self.is_armv8_1m = "v8.1-M" in self._attributes()

@@ -32,6 +32,8 @@ def execute(state, insn):
     if name in ("vpush", "vpop"):
         size = registers_bytes(lists[0].names)
         state.put(STACK, add(state.registers.get(STACK), (size if name == "vpop" else -size) & MASK))
+        if name == "vpush":
+            _overwrite(state, state.registers.get(STACK), size)
     elif lists and memory is None:
         _several(state, insn, registers_bytes(lists[0].names))
     elif memory is not None:

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// What tools/step_bound/facts.toml says of a board's port, on a board that is played: its clock goes on with every poll, by a
+// microsecond or by a pause of up to seconds, and frames come as they like.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+
+#include "firmware/loop/clock_ticks.hpp"
+#include "firmware/ports/bare_metal/board_bus.hpp"
+#include "firmware/ports/bare_metal/board_clock.hpp"
+#include "firmware/ports/bare_metal/slcan.hpp"
+
+namespace striker::bare_metal {
+
+namespace {
+
+std::mt19937 generator(1);
+std::uint64_t now_us = 0;
+std::uint32_t waiting = 0;
+
+std::uint32_t below(std::uint32_t limit) {
+  return std::uniform_int_distribution<std::uint32_t>(0, limit - 1)(generator);
+}
+
+void let_time_pass() {
+  now_us += below(100) != 0 ? 1 + below(60) : below(50) != 0 ? below(5'000) : below(3'000'000);
+}
+
+}  // namespace
+
+std::uint32_t ticks() {
+  return static_cast<std::uint32_t>(now_us / 1'000);
+}
+std::uint32_t since_tick_us() {
+  return static_cast<std::uint32_t>(now_us % 1'000);
+}
+bool receive_can(can::Frame& frame) {
+  let_time_pass();
+  waiting += below(8) == 0 ? below(6) : 0;
+  if (waiting == 0) {
+    return false;
+  }
+  --waiting;
+  frame = {};
+  return true;
+}
+bool try_send_can(const can::Frame&) {
+  return true;
+}
+can::BusHealth can_health() {
+  return can::BusHealth::active;
+}
+
+namespace {
+
+using Ticks = loop::ClockTicks<BoardClock>;
+constexpr int played_ticks = 20'000;
+
+// A frame's reception is later than the one's before it by more than the ticks between two polls only where an age falls: so a
+// sequence sees a silence before its first frame of a tick, and once more at most.
+TEST(PortFacts, WithinATickNoAgeFallsTwice) {
+  BoardClock clock;
+  BoardBus bus(clock);
+  Ticks source(clock, {.frames_per_tick = most_frames_a_tick, .overrun_limit = 50});
+  int fell = 0;
+  for (int i = 0; i < played_ticks; ++i) {
+    const auto tick = source.next(bus);
+    int falls = 0;
+    for (std::size_t at = 1; at < tick->frames.size(); ++at) {
+      falls += tick->frames[at].age_ms < tick->frames[at - 1].age_ms ? 1 : 0;
+    }
+    ASSERT_LE(falls, 1);
+    ASSERT_LE(tick->frames.size(), most_frames_a_tick);
+    fell += falls;
+    now_us += below(10) == 0 ? below(4'000) : below(600);  // the step
+  }
+  EXPECT_GT(fell, 100);
+}
+
+TEST(PortFacts, AClockNeverBeginsAnew) {
+  BoardClock clock;
+  BoardBus bus(clock);
+  Ticks source(clock, {.frames_per_tick = most_frames_a_tick, .overrun_limit = 50});
+  std::uint32_t before = ticks();
+  for (int i = 0; i < played_ticks; ++i) {
+    const auto tick = source.next(bus);
+    ASSERT_FALSE(tick->restart);
+    ASSERT_LT(tick->number - before, 0x80000000U);
+    before = tick->number;
+  }
+}
+
+TEST(PortFacts, AFrameIs22Letters) {
+  for (std::uint8_t length = 0; length <= 8; ++length) {
+    EXPECT_LE(slcan_line({.id = 0x7FF, .length = length, .data = {}}).length, 22U);
+  }
+}
+
+// Any 8 letters, after any that came before: of the lines that end among them two at most are long enough to be looked at.
+TEST(PortFacts, EightLettersEndTwoLines) {
+  constexpr unsigned shortest = 5;
+  for (unsigned before = 0; before <= shortest; ++before) {
+    for (unsigned ends = 0; ends < 1U << 8U; ++ends) {
+      unsigned length = before;
+      unsigned looked_at = 0;
+      for (unsigned at = 0; at < 8; ++at) {
+        const bool is_end = (ends >> at & 1U) != 0;
+        looked_at += is_end && length >= shortest ? 1U : 0U;
+        length = is_end ? 0 : length + 1;
+      }
+      ASSERT_LE(looked_at, 2U);
+    }
+  }
+}
+
+// On a board, without the padding behind its last member.
+TEST(PortFacts, AMeasurementHas29Bytes) {
+  struct OfTheBoard {
+    loop::Wake<BoardClock::Time> wake;
+    BoardClock::Time execution;
+    std::optional<BoardClock::Time> latency;
+    std::uint32_t received;  // its size_t
+    bool full;
+  };
+  EXPECT_LE(offsetof(OfTheBoard, full) + sizeof(bool), 29U);
+}
+
+}  // namespace
+}  // namespace striker::bare_metal
