@@ -144,16 +144,40 @@ test("a match", async () => {
 test("a restart plays the run of that seed", async () => {
   const words = ["kick", "--view", "--episodes", "2", "--log", "bus.log"];
   const [run, page] = await begin(...words, "--view-speed", "0.5", "--seed", "5");
-  await page.getByLabel("Seed").fill("8");
+  const seed = "18446744073709551615";
+  await page.getByLabel("Seed").fill(seed);
   await press(page, "Restart");
-  await until(page, () => state.run === 2 && state.seed === 8);
+  await until(page, (wanted) => state.run === 2 && state.seed === wanted, seed);
   await pressSpeed(page, "max", 0);
   assert.equal((await run.ended()).status, 0);
   await until(page, () => byId("ended").textContent.includes("all episodes were played"));
   assert.deepEqual(page.problems, []);
   const plain = makeFolder();
-  await play("striker-sil", ["kick", "--episodes", "2", "--log", "bus.log", "--seed", "8"], plain);
+  await play("striker-sil", ["kick", "--episodes", "2", "--log", "bus.log", "--seed", seed], plain);
   assert.ok(fs.readFileSync(run.file("bus.log")).equals(fs.readFileSync(`${plain}/bus.log`)));
   fs.rmSync(plain, { recursive: true });
   assert.deepEqual(fs.readdirSync(run.folder), ["bus.log"]);
+});
+
+test("a held key and numbers that are none lose no connection", async () => {
+  const [run, page] = await begin("kick", "--view", "--view-speed", "0.1", "--episodes", "2");
+  for (const wrong of ["", "-1", "1.5", "1e3", "18446744073709551616"]) {
+    await page.getByLabel("Seed").fill(wrong);
+    await press(page, "Restart");
+  }
+  for (const wrong of ["", "0", "1.5", "60001"]) {
+    await page.getByLabel("Faults, for").fill(wrong);
+    await press(page, "loss");
+  }
+  await page.evaluate(() => {
+    for (let pressed = 0; pressed < 200; ++pressed) {
+      byId("step").click();
+      byId("stop").click();
+    }
+  });
+  await until(page, () => state.note[1] === "emergency stop");
+  const { status } = await run.ended();
+  assert.equal(status, 4);
+  assert.equal(await page.evaluate(() => state.run), 1);
+  assert.match(await until(page, () => byId("ended").textContent), /emergency stop/);
 });

@@ -90,7 +90,7 @@ class Viewer:
         return taken
 
     def receive(self):
-        """The next message of the server's, as JSON; None for a close."""
+        """The next message of the server's, as JSON; None for a close. Answers its pings meanwhile."""
         while True:
             first, length = self.take(2)
             if length == 126:
@@ -100,6 +100,8 @@ class Viewer:
             data = self.take(length)
             if first & 0xF == 8:
                 return None
+            if first & 0xF == 9:
+                self.send_frame(data, first=0x8A)
             if first & 0xF == 1:
                 return json.loads(data)
 

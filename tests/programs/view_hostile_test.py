@@ -39,17 +39,19 @@ def answer_to(run, data, patience=20):
         return answer
 
 
-def is_closed(viewer):
-    """After what comes on its own, and no later than a client that is taken for dead."""
-    viewer.socket.settimeout(20)
+def is_closed(viewer, within_s=10):
+    """After what comes on its own, and long before a client is taken for dead."""
+    begun = time.monotonic()
+    viewer.socket.settimeout(within_s)
     try:
-        while viewer.receive() is not None:
-            pass
+        while time.monotonic() - begun < within_s:
+            if viewer.receive() is None:
+                return True
     except (ConnectionError, ValueError):
-        pass
+        return True
     except socket.timeout:
-        return False
-    return True
+        pass
+    return False
 
 
 class Hostile(unittest.TestCase):
@@ -147,8 +149,41 @@ class Hostile(unittest.TestCase):
         watcher.close()
         self.ends_as_without_a_view(run)
 
+    def test_a_flood_of_pings_is_read_as_slowly_as_messages_and_others_are_served(self):
+        run = self.begin()
+        watcher, flooder = Viewer(run), Viewer(run)
+        begun = time.monotonic()
+        ping = bytes([0x89, 0x80, 1, 2, 3, 4])
+
+        def flood():
+            try:
+                while time.monotonic() - begun < 3:
+                    flooder.socket.sendall(1000 * ping)
+            except OSError:
+                pass
+
+        thread = threading.Thread(target=flood)
+        thread.start()
+        answered = 0
+        flooder.socket.settimeout(0.1)
+        while time.monotonic() - begun < 3:
+            try:
+                answered += flooder.socket.recv(65536).count(b"\x8a\x00")
+            except socket.timeout:
+                pass
+        self.assertGreater(answered, 100)
+        self.assertLess(answered, (time.monotonic() - begun + 2) * 16 * 1024 / len(ping))
+        watcher.until(lambda state: state["tick"] > 0)
+        flooder.close()
+        thread.join()
+        self.ends_as_without_a_view(run)
+
     def test_connections_that_never_ask_end_and_keep_nobody_out_for_long(self):
         run = self.begin()
+        half, quiet = Viewer(run), Viewer(run)
+        half.socket.sendall(bytes([0x81, 0x80 | 20, 1, 2, 3, 4]) + b"half")  # of a frame, and no more of it
+        listener = threading.Thread(target=lambda: list(quiet.states()))
+        listener.start()
         silent = [run.connect() for _ in range(100)]
         slow = run.connect()
         begun = time.monotonic()
@@ -169,7 +204,17 @@ class Hostile(unittest.TestCase):
                 pass
             connection.close()
         slow.close()
+        half.socket.settimeout(40)
+        try:
+            while half.socket.recv(65536):  # and no ping is answered
+                pass
+        except ConnectionError:
+            pass
+        self.assertGreater(time.monotonic() - begun, 15)
+        self.assertTrue(listener.is_alive(), "who answers pings stays")
         self.ends_as_without_a_view(run)
+        listener.join()
+        quiet.close()
 
     def test_ten_viewers_of_whom_five_never_read_and_a_crowd_behind_them(self):
         run = self.begin()

@@ -56,6 +56,18 @@ TEST(ViewAccess, KeepsOutNamesThatWereMadeToPointHere) {
   }
 }
 
+TEST(ViewAccess, OnTheWebsOwnPortABrowserTellsNone) {
+  AccessRules http = rules;
+  http.port = 80;
+  EXPECT_EQ(page_from("127.0.0.1", "", http), Access::page);
+  EXPECT_EQ(page_from("[::1]", "", http), Access::page);
+  EXPECT_EQ(page_from("127.0.0.1:80", "", http), Access::page);
+  EXPECT_EQ(page_from("127.0.0.1", "http://127.0.0.1", http), Access::page);
+  for (const char* host : {"", "evil.example", "127.0.0.1:8080", "127.0.0.1:", "127.0.0.1:8080]", "[::1"}) {
+    EXPECT_EQ(page_from(host, "", http), Access::forbidden) << host;
+  }
+}
+
 TEST(ViewAccess, OnAllAddressesTakesAddressesAndNoNames) {
   AccessRules all = rules;
   all.address = "0.0.0.0";

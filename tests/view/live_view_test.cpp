@@ -186,6 +186,23 @@ TEST(LiveView, AStopThatIsPressedInAPauseGoesOutAtOnce) {
   EXPECT_EQ(run.ticks(), 703U);
 }
 
+TEST(LiveView, APauseAfterAStopHoldsNoStopBack) {
+  Viewed run;
+  {
+    Presser presser([&] {
+      await(run, is_paused);
+      run.stops = true;
+    });
+    run.play(two_kicks, [](Viewed& self, std::uint32_t tick) {
+      if (tick == 700) {
+        self.put({.action = ViewAction::stop});
+        self.put({.action = ViewAction::pause});
+      }
+    });
+  }
+  EXPECT_EQ(run.count(can::layout<can::EmergencyStop>.info.id), 1U);
+}
+
 TEST(LiveView, AStopSignalEndsAPause) {
   Viewed run;
   {
