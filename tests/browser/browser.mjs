@@ -22,7 +22,7 @@ export function makeFolder() {
 
 // What a page throws or writes to its console as an error fails the test that closes it.
 export async function openBrowser() {
-  const chrome = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--disable-dev-shm-usage"] });
+  const chrome = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--disable-dev-shm-usage", "--disable-gpu"] });
   return {
     async open(url) {
       const page = await chrome.newPage();
@@ -31,6 +31,12 @@ export async function openBrowser() {
       page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
       await page.goto(url);
       return page;
+    },
+    // That all its processes had so far.
+    async processorMs() {
+      const session = await chrome.newBrowserCDPSession();
+      const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+      return processInfo.reduce((sum, one) => sum + 1000 * one.cpuTime, 0);
     },
     close: () => chrome.close(),
   };
