@@ -7,6 +7,7 @@ Usage: view_hostile_test.py BIN   (the folder of the programs)
 """
 
 import os
+import select
 import socket
 import subprocess
 import sys
@@ -52,6 +53,18 @@ def is_closed(viewer, within_s=10):
     except socket.timeout:
         pass
     return False
+
+
+def first_closed(connections, count):
+    """The places of those that the server closes first."""
+    closed = []
+    while len(closed) < count:
+        left = [one for place, one in enumerate(connections) if place not in closed]
+        readable, _, _ = select.select(left, [], [], 20)
+        if not readable:
+            raise AssertionError(f"{len(closed)} were closed, not {count}")
+        closed += [connections.index(one) for one in readable]
+    return closed
 
 
 class Hostile(unittest.TestCase):
@@ -104,6 +117,9 @@ class Hostile(unittest.TestCase):
         self.refused(run, f"DELETE /?token={run.token} HTTP/1.1\r\nHost: {here}\r\n\r\n".encode(), b"405")
         let_in = answer_to(run, f"{page}Host: {here}\r\n\r\n".encode())
         self.assertTrue(let_in.startswith(b"HTTP/1.1 200"), let_in[:80])
+        for promise in (b"Content-Security-Policy: default-src 'none'; ", b"connect-src 'self'; ", b"frame-ancestors 'none'",
+                        b"Referrer-Policy: no-referrer", b"Cache-Control: no-store"):
+            self.assertIn(promise, let_in.partition(b"\r\n\r\n")[0])
         for way_out in (b"http://", b"https:", b"src=", b"@import"):
             self.assertNotIn(way_out, let_in)
         self.ends_as_without_a_view(run)
@@ -134,6 +150,7 @@ class Hostile(unittest.TestCase):
             "fragments without an end": lambda one: [one.send_frame(b" " * 100, first=first) for first in [1] + 50 * [0]],
             "a long ping": lambda one: one.send_frame(b"x" * 126, first=0x89),
             "random bytes": lambda one: one.socket.sendall(os.urandom(10_000)),
+            "a command every 10 ms": lambda one: [(one.send(do="speed", x=0.1), time.sleep(0.01)) for _ in range(200)],
             "a flood of commands": lambda one: [one.send(do="speed", x=1) for _ in range(500)],
         }
         for name, attack in attacks.items():
@@ -185,6 +202,7 @@ class Hostile(unittest.TestCase):
         listener = threading.Thread(target=lambda: list(quiet.states()))
         listener.start()
         silent = [run.connect() for _ in range(100)]
+        self.assertGreaterEqual(min(first_closed(silent, 30)), 60, "those that were too many are closed before any other")
         slow = run.connect()
         begun = time.monotonic()
         dribbled = 0

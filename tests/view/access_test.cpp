@@ -39,6 +39,14 @@ TEST(ViewAccess, KeepsOutWhoHasNotTheWholeToken) {
   }
 }
 
+TEST(ViewAccess, KeepsOutATokenWithOneOtherDigitWhereverItIs) {
+  for (std::size_t place = live.size() - rules.token.size(); place < live.size(); ++place) {
+    std::string target = live;
+    target[place] = target[place] == '0' ? '1' : '0';
+    EXPECT_EQ(live_from("127.0.0.1:8080", "http://127.0.0.1:8080", target), Access::forbidden) << target;
+  }
+}
+
 TEST(ViewAccess, KeepsOutOtherPagesAndSocketsOfNoPage) {
   for (const char* origin :
        {"", "null", "http://evil.example", "http://127.0.0.1:8081", "https://127.0.0.1:8080",
