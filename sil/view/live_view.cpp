@@ -62,10 +62,10 @@ void LiveView::begin_run(LiveRun run) {
 
 void LiveView::begin_tick() {
   obey();
-  if (!gate_.is_open()) {
+  if (!may_pass()) {
     show();
   }
-  while (!gate_.is_open() && !restart_seed_ && !plan_.stop()) {
+  while (!may_pass() && !restart_seed_ && !plan_.stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     obey();
     if (exchange_->wanted.load(std::memory_order_relaxed)) {
@@ -76,6 +76,11 @@ void LiveView::begin_tick() {
     gate_.pace();
   }
   send_stops();
+}
+
+// In a pause too, where a stop was pressed before it that is not out yet.
+bool LiveView::may_pass() const {
+  return gate_.is_open() || std::ranges::any_of(stop_due_, [&](const auto& due) { return is_due(due); });
 }
 
 void LiveView::end_tick(const Snapshot& snapshot) {
@@ -158,7 +163,7 @@ void LiveView::send_stops() {
   constexpr std::uint32_t again_ticks = 10;
   for (std::size_t robot = 0; robot < run_.robots; ++robot) {
     auto& due = stop_due_[robot];
-    if (due && *due <= state_.tick) {
+    if (is_due(due)) {
       run_.say(robot, Operator::emergency_stop());
       due = state_.tick + again_ticks;
     }

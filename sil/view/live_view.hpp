@@ -5,8 +5,9 @@
 // Time: a pause stops before the next tick, and looks for commands every millisecond. A step lets so many ticks pass. In a run
 // on the wall clock time cannot be stopped, and such commands are refused with a note.
 // An emergency stop is an operator's frame on the robot's bus with the next tick's frames, and ends a pause: it goes out at
-// once. It is sent again every 10 ms until the controller says that it is stopped, as one that is off the bus hears none. A fault is a live one on the robot's link (fault/live_faults.hpp). A restart ends the run; whoever played it begins it
-// anew with `restart_seed`.
+// once, and before a pause that somebody presses right after it. It is sent again every 10 ms until the controller says that
+// it is stopped, as one that is off the bus hears none. A fault is a live one on the robot's link (fault/live_faults.hpp). A
+// restart ends the run; whoever played it begins it anew with `restart_seed`.
 //
 //   LiveView view(exchange, {.speed = 1.0, .has_time = true, .stop = host::stop_requested});
 //   view.begin_run({.seed = 7, .robots = 1, .say = ..., .faults = ...});
@@ -64,6 +65,10 @@ class LiveView final : public Observer, public MatchObserver {
  private:
   void obey();
   void obey(const ViewCommand& command);
+  [[nodiscard]] bool may_pass() const;
+  [[nodiscard]] bool is_due(const std::optional<std::uint32_t>& stop) const {
+    return stop && *stop <= state_.tick;
+  }
   void press_stop(std::optional<std::size_t> robot);
   void send_stops();
   void begin_fault(const ViewCommand& command);
@@ -79,7 +84,7 @@ class LiveView final : public Observer, public MatchObserver {
   LiveRun run_;
   LiveState state_;
   std::array<std::optional<std::uint32_t>, most_viewed_robots> stop_due_ =
-      {};  // in this tick, where one was pressed
+      {};  // from this tick on, where one was pressed
   std::optional<std::uint64_t> restart_seed_;
 };
 

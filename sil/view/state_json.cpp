@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/policy/network.hpp"
@@ -190,6 +191,11 @@ Json actions_json() {
   return actions;
 }
 
+// JSON whatever the bytes of a text: those that are no UTF-8 are replaced.
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
 std::string hello_text(const ViewFacts& facts) {
@@ -198,7 +204,7 @@ std::string hello_text(const ViewFacts& facts) {
                       {"faults", facts.faults},      {"has_time", facts.has_time},
                       {"messages", messages_json()}, {"actions", actions_json()},
                       {"bit_rate", bit_rate}};
-  return Json{{"hello", hello}}.dump();
+  return text_of(Json{{"hello", hello}});  // a team's name is a file's, of any bytes
 }
 
 std::string state_text(const LiveState& state) {
@@ -207,7 +213,7 @@ std::string state_text(const LiveState& state) {
     robots.push_back(robot_json(state.robots[robot]));
   }
   const Json json = {{"run", state.run},
-                     {"seed", state.seed},
+                     {"seed", std::to_string(state.seed)},  // all its 64 bits, which a page's numbers have not
                      {"tick", state.tick},
                      {"episode", state.episode},
                      {"deciding", state.deciding},
@@ -224,7 +230,7 @@ std::string state_text(const LiveState& state) {
 }
 
 std::string ended_text(const std::string& why) {
-  return Json{{"ended", why}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text_of(Json{{"ended", why}});
 }
 
 }  // namespace striker::sil

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A run with a live view, and clients of it: a plain WebSocket (RFC 6455), and Debian's Chromium over its DevTools protocol
-through pipes."""
+"""A run with a live view, and a client of it: a plain WebSocket (RFC 6455)."""
 
 import base64
-import fcntl
 import json
 import os
 import re
@@ -92,7 +90,7 @@ class Viewer:
         return taken
 
     def receive(self):
-        """The next message of the server's, as JSON; None for a close."""
+        """The next message of the server's, as JSON; None for a close. Answers its pings meanwhile."""
         while True:
             first, length = self.take(2)
             if length == 126:
@@ -102,6 +100,8 @@ class Viewer:
             data = self.take(length)
             if first & 0xF == 8:
                 return None
+            if first & 0xF == 9:
+                self.send_frame(data, first=0x8A)
             if first & 0xF == 1:
                 return json.loads(data)
 
@@ -133,96 +133,3 @@ class Viewer:
 
     def close(self):
         self.socket.close()
-
-
-class Browser:
-    """Chromium without a window. It hears no more than a debugger's messages, through two pipes."""
-
-    def __init__(self, profile):
-        low_read, self.to = os.pipe()
-        self.back, low_write = os.pipe()
-        ends = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (low_read, low_write)]
-        words = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-                 f"--user-data-dir={profile}", "--remote-debugging-pipe", "about:blank"]
-        # Chromium reads from 3 and writes to 4.
-        self.process = subprocess.Popen(["bash", "-c", f'exec "$@" 3<&{ends[0]} 4>&{ends[1]}', "bash", *words],  # pylint: disable=consider-using-with
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, pass_fds=ends)
-        for end in (low_read, low_write, *ends):
-            os.close(end)
-        self.bytes = b""
-        self.number = 0
-        self.events = []
-        page = next(target for target in self.call("Target.getTargets")["targetInfos"] if target["type"] == "page")
-        self.session = self.call("Target.attachToTarget", targetId=page["targetId"], flatten=True)["sessionId"]
-        for room in ("Page", "Runtime", "Log"):
-            self.ask(f"{room}.enable")
-
-    def call(self, method, session=None, **parameters):
-        self.number += 1
-        message = {"id": self.number, "method": method, "params": parameters}
-        if session:
-            message["sessionId"] = session
-        os.write(self.to, json.dumps(message).encode() + b"\0")
-        while True:
-            while b"\0" not in self.bytes:
-                more = os.read(self.back, 1 << 20)
-                if not more:
-                    raise ConnectionError("chromium has ended")
-                self.bytes += more
-            text, _, self.bytes = self.bytes.partition(b"\0")
-            answer = json.loads(text)
-            if answer.get("id") == self.number:
-                if "error" in answer:
-                    raise AssertionError(answer["error"])
-                return answer["result"]
-            self.events.append(answer)
-
-    def ask(self, method, **parameters):
-        return self.call(method, self.session, **parameters)
-
-    def open(self, url):
-        self.ask("Page.navigate", url=url)
-
-    def value(self, script):
-        result = self.ask("Runtime.evaluate", expression=script, returnByValue=True)
-        if "exceptionDetails" in result:
-            raise AssertionError(result["exceptionDetails"])
-        return result["result"].get("value")
-
-    def until(self, script, seconds=60):
-        """The value of the script as soon as it is true."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            value = self.value(script)
-            if value:
-                return value
-            time.sleep(0.03)
-        shown = self.value("document.body.innerText.slice(0, 1500)")
-        raise AssertionError(f"never true: {script}; the page says: {shown}; {self.problems()}")
-
-    def click(self, selector):
-        """With a mouse, in the middle of what the selector names."""
-        place = self.value(f"""(() => {{ const one = document.querySelector({json.dumps(selector)});
-            one.scrollIntoView({{ block: "center" }}); const box = one.getBoundingClientRect();
-            return [box.x + box.width / 2, box.y + box.height / 2]; }})()""")
-        for kind in ("mousePressed", "mouseReleased"):
-            self.ask("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], button="left", clickCount=1)
-
-    def picture(self, file):
-        with open(file, "wb") as stream:
-            stream.write(base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"]))
-
-    def problems(self):
-        """What the page threw or wrote to the console as an error."""
-        return [event for event in self.events
-                if event["method"] == "Runtime.exceptionThrown" or
-                (event["method"] == "Log.entryAdded" and event["params"]["entry"]["level"] == "error")]
-
-    def close(self):
-        try:
-            self.call("Browser.close")
-        except (OSError, ConnectionError):
-            pass
-        self.process.wait(timeout=30)
-        os.close(self.to)
-        os.close(self.back)

@@ -7,6 +7,7 @@ Usage: view_hostile_test.py BIN   (the folder of the programs)
 """
 
 import os
+import select
 import socket
 import subprocess
 import sys
@@ -19,7 +20,7 @@ from view_client import Run, Viewer
 
 BIN = sys.argv.pop(1)
 SIL = os.path.join(BIN, "striker-sil")
-KICKS = ["kick", "--seed", "4", "--log", "bus.log", "--json", "kick.json"]
+KICKS = ["kick", "--episodes", "10", "--seed", "4", "--log", "bus.log", "--json", "kick.json"]
 
 
 def answer_to(run, data, patience=20):
@@ -39,17 +40,31 @@ def answer_to(run, data, patience=20):
         return answer
 
 
-def is_closed(viewer):
-    """After what comes on its own, and no later than a client that is taken for dead."""
-    viewer.socket.settimeout(20)
+def is_closed(viewer, within_s=10):
+    """After what comes on its own, and long before a client is taken for dead."""
+    begun = time.monotonic()
+    viewer.socket.settimeout(within_s)
     try:
-        while viewer.receive() is not None:
-            pass
+        while time.monotonic() - begun < within_s:
+            if viewer.receive() is None:
+                return True
     except (ConnectionError, ValueError):
-        pass
+        return True
     except socket.timeout:
-        return False
-    return True
+        pass
+    return False
+
+
+def first_closed(connections, count):
+    """The places of those that the server closes first."""
+    closed = []
+    while len(closed) < count:
+        left = [one for place, one in enumerate(connections) if place not in closed]
+        readable, _, _ = select.select(left, [], [], 20)
+        if not readable:
+            raise AssertionError(f"{len(closed)} were closed, not {count}")
+        closed += [connections.index(one) for one in readable]
+    return closed
 
 
 class Hostile(unittest.TestCase):
@@ -57,25 +72,27 @@ class Hostile(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
         cls.addClassCleanup(cls.temporary.cleanup)
-        cls.plain = {}
+        plain = os.path.join(cls.temporary.name, "plain")
+        os.mkdir(plain)
+        subprocess.run([SIL, *KICKS], cwd=plain, check=True, capture_output=True)
+        with open(os.path.join(plain, "bus.log"), "rb") as log:
+            cls.log = log.read()
 
-    def begin(self, episodes=40, *words):
-        folder = tempfile.mkdtemp(dir=self.temporary.name)
-        run = Run(SIL, folder, *KICKS, "--episodes", str(episodes), "--view", *words)
+    def begin(self):
+        """Slow, so that it lasts for minutes."""
+        run = Run(SIL, tempfile.mkdtemp(dir=self.temporary.name), *KICKS, "--view", "--view-speed", "0.1")
         self.addCleanup(run.close)
         return run
 
-    def ends_as_without_a_view(self, run, episodes):
+    def ends_as_without_a_view(self, run):
         """Speeds it up, and compares its files."""
         viewer = Viewer(run)
         viewer.send(do="speed", x="max")
         status, _, said = run.ended()
         viewer.close()
         self.assertEqual(status, 0, said)
-        folder = tempfile.mkdtemp(dir=self.temporary.name)
-        subprocess.run([SIL, *KICKS, "--episodes", str(episodes)], cwd=folder, check=True, capture_output=True)
-        with open(os.path.join(folder, "bus.log"), "rb") as one, open(os.path.join(run.folder, "bus.log"), "rb") as other:
-            self.assertEqual(one.read(), other.read())
+        with open(os.path.join(run.folder, "bus.log"), "rb") as log:
+            self.assertEqual(log.read(), self.log)
 
     def refused(self, run, data, status):
         answer = answer_to(run, data)
@@ -100,9 +117,12 @@ class Hostile(unittest.TestCase):
         self.refused(run, f"DELETE /?token={run.token} HTTP/1.1\r\nHost: {here}\r\n\r\n".encode(), b"405")
         let_in = answer_to(run, f"{page}Host: {here}\r\n\r\n".encode())
         self.assertTrue(let_in.startswith(b"HTTP/1.1 200"), let_in[:80])
+        for promise in (b"Content-Security-Policy: default-src 'none'; ", b"connect-src 'self'; ", b"frame-ancestors 'none'",
+                        b"Referrer-Policy: no-referrer", b"Cache-Control: no-store"):
+            self.assertIn(promise, let_in.partition(b"\r\n\r\n")[0])
         for way_out in (b"http://", b"https:", b"src=", b"@import"):
             self.assertNotIn(way_out, let_in)
-        self.ends_as_without_a_view(run, 40)
+        self.ends_as_without_a_view(run)
 
     def test_bytes_that_are_no_request(self):
         run = self.begin()
@@ -113,7 +133,7 @@ class Hostile(unittest.TestCase):
                      f"{head}Content-Length: 1000000\r\n\r\n".encode() + b"z" * 10_000,
                      f"{head}Transfer-Encoding: chunked\r\n\r\nffffffff\r\n".encode(), b"\x16\x03\x01\x02\x00\x01\x00"):
             self.assertNotIn(b"200 OK", answer_to(run, data))
-        self.ends_as_without_a_view(run, 40)
+        self.ends_as_without_a_view(run)
 
     def test_messages_that_are_no_commands_close_their_connection(self):
         run = self.begin()
@@ -130,6 +150,7 @@ class Hostile(unittest.TestCase):
             "fragments without an end": lambda one: [one.send_frame(b" " * 100, first=first) for first in [1] + 50 * [0]],
             "a long ping": lambda one: one.send_frame(b"x" * 126, first=0x89),
             "random bytes": lambda one: one.socket.sendall(os.urandom(10_000)),
+            "a command every 10 ms": lambda one: [(one.send(do="speed", x=0.1), time.sleep(0.01)) for _ in range(200)],
             "a flood of commands": lambda one: [one.send(do="speed", x=1) for _ in range(500)],
         }
         for name, attack in attacks.items():
@@ -143,11 +164,45 @@ class Hostile(unittest.TestCase):
         watcher = Viewer(run)
         self.assertFalse(watcher.until(lambda state: True)["paused"])
         watcher.close()
-        self.ends_as_without_a_view(run, 40)
+        self.ends_as_without_a_view(run)
+
+    def test_a_flood_of_pings_is_read_as_slowly_as_messages_and_others_are_served(self):
+        run = self.begin()
+        watcher, flooder = Viewer(run), Viewer(run)
+        begun = time.monotonic()
+        ping = bytes([0x89, 0x80, 1, 2, 3, 4])
+
+        def flood():
+            try:
+                while time.monotonic() - begun < 3:
+                    flooder.socket.sendall(1000 * ping)
+            except OSError:
+                pass
+
+        thread = threading.Thread(target=flood)
+        thread.start()
+        answered = 0
+        flooder.socket.settimeout(0.1)
+        while time.monotonic() - begun < 3:
+            try:
+                answered += flooder.socket.recv(65536).count(b"\x8a\x00")
+            except socket.timeout:
+                pass
+        self.assertGreater(answered, 100)
+        self.assertLess(answered, (time.monotonic() - begun + 2) * 16 * 1024 / len(ping))
+        watcher.until(lambda state: state["tick"] > 0)
+        flooder.close()
+        thread.join()
+        self.ends_as_without_a_view(run)
 
     def test_connections_that_never_ask_end_and_keep_nobody_out_for_long(self):
         run = self.begin()
+        half, quiet = Viewer(run), Viewer(run)
+        half.socket.sendall(bytes([0x81, 0x80 | 20, 1, 2, 3, 4]) + b"half")  # of a frame, and no more of it
+        listener = threading.Thread(target=lambda: list(quiet.states()))
+        listener.start()
         silent = [run.connect() for _ in range(100)]
+        self.assertGreaterEqual(min(first_closed(silent, 30)), 60, "those that were too many are closed before any other")
         slow = run.connect()
         begun = time.monotonic()
         dribbled = 0
@@ -167,10 +222,20 @@ class Hostile(unittest.TestCase):
                 pass
             connection.close()
         slow.close()
-        self.ends_as_without_a_view(run, 40)
+        half.socket.settimeout(40)
+        try:
+            while half.socket.recv(65536):  # and no ping is answered
+                pass
+        except ConnectionError:
+            pass
+        self.assertGreater(time.monotonic() - begun, 15)
+        self.assertTrue(listener.is_alive(), "who answers pings stays")
+        self.ends_as_without_a_view(run)
+        listener.join()
+        quiet.close()
 
     def test_ten_viewers_of_whom_five_never_read_and_a_crowd_behind_them(self):
-        run = self.begin(400)
+        run = self.begin()
         readers = [Viewer(run) for _ in range(5)]
         never = [Viewer(run) for _ in range(5)]
         seen = [0] * len(readers)
@@ -192,7 +257,7 @@ class Hostile(unittest.TestCase):
         for one in crowd:
             one.close()
         time.sleep(1)
-        self.ends_as_without_a_view(run, 400)
+        self.ends_as_without_a_view(run)
         for thread in threads:
             thread.join(30)
             self.assertFalse(thread.is_alive())

@@ -39,6 +39,14 @@ TEST(ViewAccess, KeepsOutWhoHasNotTheWholeToken) {
   }
 }
 
+TEST(ViewAccess, KeepsOutATokenWithOneOtherDigitWhereverItIs) {
+  for (std::size_t place = live.size() - rules.token.size(); place < live.size(); ++place) {
+    std::string target = live;
+    target[place] = target[place] == '0' ? '1' : '0';
+    EXPECT_EQ(live_from("127.0.0.1:8080", "http://127.0.0.1:8080", target), Access::forbidden) << target;
+  }
+}
+
 TEST(ViewAccess, KeepsOutOtherPagesAndSocketsOfNoPage) {
   for (const char* origin :
        {"", "null", "http://evil.example", "http://127.0.0.1:8081", "https://127.0.0.1:8080",
@@ -53,6 +61,18 @@ TEST(ViewAccess, KeepsOutNamesThatWereMadeToPointHere) {
                            "127.0.0.1.evil.example:8080", "10.0.0.1:8080", ":8080"}) {
     EXPECT_EQ(page_from(host), Access::forbidden) << host;
     EXPECT_EQ(live_from(host, std::string("http://") + host), Access::forbidden) << host;
+  }
+}
+
+TEST(ViewAccess, OnTheWebsOwnPortABrowserTellsNone) {
+  AccessRules http = rules;
+  http.port = 80;
+  EXPECT_EQ(page_from("127.0.0.1", "", http), Access::page);
+  EXPECT_EQ(page_from("[::1]", "", http), Access::page);
+  EXPECT_EQ(page_from("127.0.0.1:80", "", http), Access::page);
+  EXPECT_EQ(page_from("127.0.0.1", "http://127.0.0.1", http), Access::page);
+  for (const char* host : {"", "evil.example", "127.0.0.1:8080", "127.0.0.1:", "127.0.0.1:8080]", "[::1"}) {
+    EXPECT_EQ(page_from(host, "", http), Access::forbidden) << host;
   }
 }
 

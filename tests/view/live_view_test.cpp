@@ -186,6 +186,26 @@ TEST(LiveView, AStopThatIsPressedInAPauseGoesOutAtOnce) {
   EXPECT_EQ(run.ticks(), 703U);
 }
 
+TEST(LiveView, APauseAfterAStopHoldsNoStopBack) {
+  Viewed run;
+  std::uint32_t paused_at = 0;
+  {
+    Presser presser([&] {
+      await(run, is_paused);
+      paused_at = await(run, is_paused);
+      run.stops = true;
+    });
+    run.play(two_kicks, [](Viewed& self, std::uint32_t tick) {
+      if (tick == 700) {
+        self.put({.action = ViewAction::stop});
+        self.put({.action = ViewAction::pause});
+      }
+    });
+  }
+  EXPECT_EQ(paused_at, 701U) << "after the stop's tick";
+  EXPECT_EQ(run.count(can::layout<can::EmergencyStop>.info.id), 1U);
+}
+
 TEST(LiveView, AStopSignalEndsAPause) {
   Viewed run;
   {
@@ -212,6 +232,22 @@ TEST(LiveView, ARestartEndsTheRunAndSaysWithWhichSeed) {
   });
   EXPECT_EQ(run.view.restart_seed(), 99U);
   EXPECT_EQ(run.ticks(), 703U);
+}
+
+TEST(LiveView, ARunThatIsBegunAnewHasNothingOfWhatWasPressedBefore) {
+  Viewed run;
+  run.play(two_kicks, [](Viewed& self, std::uint32_t tick) {
+    if (tick == 700) {
+      self.put({.action = ViewAction::fault, .robot = 0, .kind = FaultKind::interface_down, .for_ms = 60'000});
+      self.put({.action = ViewAction::stop});
+    } else if (tick == 705) {
+      self.put({.action = ViewAction::restart, .seed = two_kicks.seed});
+    }
+  });
+  EXPECT_EQ(run.count(can::layout<can::EmergencyStop>.info.id), 1U);
+  run.record.frames.clear();
+  run.play(two_kicks, [](Viewed&, std::uint32_t) {});
+  expect_same(run.record.frames, unviewed(two_kicks));
 }
 
 TEST(LiveView, AFaultIsOnTheBusForItsTimeAndTheControllerFindsIt) {

@@ -50,8 +50,15 @@ TEST(StateJson, KnowsTheMessageTableAndWhichFramesAreLockstepsOwn) {
   }
 }
 
-TEST(StateJson, AnEndIsTextWhateverItsBytes) {
+TEST(StateJson, AnEndAndATeamAreTextWhateverTheirBytes) {
   EXPECT_TRUE(nlohmann::json::parse(ended_text("\xff\"</script>")).contains("ended"));
+  const auto hello = nlohmann::json::parse(hello_text({.scenario = "match", .teams = {"\xff"}, .faults = {}}));
+  EXPECT_EQ(hello["hello"]["teams"].size(), 1U);
+}
+
+TEST(StateJson, ASeedKeepsAllItsBits) {
+  const auto json = nlohmann::json::parse(state_text({.seed = UINT64_MAX}));
+  EXPECT_EQ(json["state"]["seed"], "18446744073709551615");
 }
 
 }  // namespace

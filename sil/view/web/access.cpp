@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <random>
 
 namespace striker::sil {
@@ -34,15 +35,25 @@ bool is_literal(std::string_view name) {
          (name.starts_with('[') && name.ends_with(']') && all_of("[]:.0123456789abcdefABCDEF"));
 }
 
+// Without HTTP's own port, which browsers leave out. Nothing if it is another.
+std::optional<std::string_view> name_in(std::string_view host, std::uint16_t port) {
+  constexpr std::uint16_t http_port = 80;
+  const std::string told = fmt::format(":{}", port);
+  if (host.ends_with(told)) {
+    return host.substr(0, host.size() - told.size());
+  }
+  const bool tells_none = host.find(':') == std::string_view::npos || host.ends_with(']');
+  return port == http_port && tells_none ? std::optional(host) : std::nullopt;
+}
+
 bool is_here(std::string_view host, const AccessRules& rules) {
-  const std::string port = fmt::format(":{}", rules.port);
-  if (!host.ends_with(port)) {
+  const auto name = name_in(host, rules.port);
+  if (!name) {
     return false;
   }
-  const std::string_view name = host.substr(0, host.size() - port.size());
   constexpr std::array<std::string_view, 3> own = {"127.0.0.1", "localhost", "[::1]"};
-  return name == rules.address || std::ranges::find(own, name) != own.end() ||
-         (listens_to_all(rules.address) && is_literal(name));
+  return *name == rules.address || std::ranges::find(own, *name) != own.end() ||
+         (listens_to_all(rules.address) && is_literal(*name));
 }
 
 bool comes_from_here(std::string_view origin, std::string_view host) {

@@ -6,7 +6,7 @@
 //   connections    64 at a time, 16 of them viewers; further ones are closed at once
 //   a request      4 KB of header, no body, within 5 s of connecting; one a connection
 //   a message      256 bytes of text that is a command (command.hpp), 40 at once and 20 a second; anything else, or more,
-//                  closes the connection
+//                  closes the connection; of pings and the like no more is read than 16 KB a second
 //   a queue        the state that is being sent and the latest: what a slow one was too slow for is dropped
 //   a dead one     closed after 20 s without a sign of life
 #pragma once

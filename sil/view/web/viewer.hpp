@@ -3,6 +3,7 @@
 // operation of it is open. All in the server's thread.
 #pragma once
 
+#include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -51,6 +52,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
 
  private:
   using Error = boost::beast::error_code;
+  using Tcp = boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::any_io_executor,
+                                         boost::beast::simple_rate_policy>;
 
   void answer();
   void send_response();
@@ -62,7 +65,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void close(boost::beast::websocket::close_code code);
 
   ViewHall* hall_;
-  boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
+  boost::beast::websocket::stream<Tcp> stream_;
   boost::beast::flat_static_buffer<8192> buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
   boost::beast::http::response<boost::beast::http::string_body> response_;
