@@ -19,7 +19,7 @@ namespace {
 
 std::mt19937 generator(1);
 std::uint64_t now_us = 0;
-std::uint32_t waiting = 0;
+std::uint32_t arrived = 0;
 
 std::uint32_t below(std::uint32_t limit) {
   return std::uniform_int_distribution<std::uint32_t>(0, limit - 1)(generator);
@@ -39,11 +39,11 @@ std::uint32_t since_tick_us() {
 }
 bool receive_can(can::Frame& frame) {
   let_time_pass();
-  waiting += below(8) == 0 ? below(6) : 0;
-  if (waiting == 0) {
+  arrived += below(8) == 0 ? below(6) : 0;
+  if (arrived == 0) {
     return false;
   }
-  --waiting;
+  --arrived;
   frame = {};
   return true;
 }
