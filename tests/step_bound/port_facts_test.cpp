@@ -5,12 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <random>
 
 #include "firmware/loop/clock_ticks.hpp"
 #include "firmware/ports/bare_metal/board_bus.hpp"
 #include "firmware/ports/bare_metal/board_clock.hpp"
+#include "firmware/ports/bare_metal/can_driver/transmit_queue.hpp"
 #include "firmware/ports/bare_metal/slcan.hpp"
 
 namespace striker::bare_metal {
@@ -19,7 +19,7 @@ namespace {
 
 std::mt19937 generator(1);
 std::uint64_t now_us = 0;
-std::uint32_t waiting = 0;
+std::uint32_t arrived = 0;
 
 std::uint32_t below(std::uint32_t limit) {
   return std::uniform_int_distribution<std::uint32_t>(0, limit - 1)(generator);
@@ -39,11 +39,11 @@ std::uint32_t since_tick_us() {
 }
 bool receive_can(can::Frame& frame) {
   let_time_pass();
-  waiting += below(8) == 0 ? below(6) : 0;
-  if (waiting == 0) {
+  arrived += below(8) == 0 ? below(6) : 0;
+  if (arrived == 0) {
     return false;
   }
-  --waiting;
+  --arrived;
   frame = {};
   return true;
 }
@@ -93,6 +93,22 @@ TEST(PortFacts, AClockNeverBeginsAnew) {
   }
 }
 
+// Whatever is put in and taken out: loops over the queue turn as often at most, and 15 times where one leaves it.
+TEST(PortFacts, SixteenFramesWait) {
+  static_assert(TransmitQueue::capacity == 16);
+  TransmitQueue queue;
+  for (int i = 0; i < 10'000; ++i) {
+    const Waiting waiting = {.frame = {.id = static_cast<std::uint16_t>(below(2'048)), .data = {}},
+                             .since_tick = static_cast<std::uint32_t>(i)};
+    if (below(4) != 0) {
+      (void)(below(2) == 0 ? queue.add(waiting) : queue.put_back(waiting));
+    } else if (!queue.empty()) {
+      queue.remove(below(static_cast<std::uint32_t>(queue.size())));
+    }
+    ASSERT_LE(queue.size(), 16U);
+  }
+}
+
 TEST(PortFacts, AFrameIs22Letters) {
   for (std::uint8_t length = 0; length <= 8; ++length) {
     EXPECT_LE(slcan_line({.id = 0x7FF, .length = length, .data = {}}).length, 22U);
@@ -101,7 +117,7 @@ TEST(PortFacts, AFrameIs22Letters) {
 
 // Any 8 letters, after any that came before: of the lines that end among them two at most are long enough to be looked at.
 TEST(PortFacts, EightLettersEndTwoLines) {
-  constexpr unsigned shortest = 5;
+  constexpr auto shortest = static_cast<unsigned>(SlcanReader::shortest);
   for (unsigned before = 0; before <= shortest; ++before) {
     for (unsigned ends = 0; ends < 1U << 8U; ++ends) {
       unsigned length = before;
@@ -116,16 +132,11 @@ TEST(PortFacts, EightLettersEndTwoLines) {
   }
 }
 
-// On a board, without the padding behind its last member.
+// On a board, whose sizes have 32 bits, and without the padding behind its last member.
 TEST(PortFacts, AMeasurementHas29Bytes) {
-  struct OfTheBoard {
-    loop::Wake<BoardClock::Time> wake;
-    BoardClock::Time execution;
-    std::optional<BoardClock::Time> latency;
-    std::uint32_t received;  // its size_t
-    bool full;
-  };
-  EXPECT_LE(offsetof(OfTheBoard, full) + sizeof(bool), 29U);
+  using Measurement = loop::TickMeasurement<BoardClock::Time>;
+  constexpr std::size_t wider = sizeof(Measurement::received) - sizeof(std::uint32_t);
+  EXPECT_EQ(offsetof(Measurement, full) + sizeof(bool) - wider, 29U);
 }
 
 }  // namespace

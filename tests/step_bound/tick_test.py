@@ -47,6 +47,13 @@ def check_response_times():
     expect(tick.periods(["spi"], {"spi": 7.0}) == {"spi": 7.0}, "or told")
 
 
+def check_wrong_use(image):
+    for words, text in ((["--all", "--ffx", "x"], "--ffx"), ([image, "--tick", "--missed", "-1"], "--missed"), ([image, "--every", "spi"], "--every"),
+                        ([image, "--tick", "--every", "spi=0"], "--every")):
+        done = subprocess.run([os.path.join(ROOT, "tools", "step-bound"), *words], capture_output=True, text=True, check=False)
+        expect(done.returncode == 2 and text in done.stderr, f"{' '.join(words[-2:])}: {done.stderr.splitlines()[-1]}")
+
+
 def without(fact):
     """The facts' file but for one, as text."""
     with open(analysis.FACTS, encoding="utf-8") as file:
@@ -119,6 +126,7 @@ def main():
     if arguments.policy:
         image_test.build(board, arguments.policy, arguments.images, ("striker-controller",))
     check_response_times()
+    check_wrong_use("image.elf")
     check_tick(os.path.join(arguments.images, "bin", "striker-controller.elf"), board["cpu"], sorted(arguments.interrupt),
                dict(need.split("=") for need in arguments.needs))
     bench = os.path.join(arguments.images, "bin", "striker-bench.elf")

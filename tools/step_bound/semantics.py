@@ -275,7 +275,7 @@ HANDLERS = {
 
 def branches(state, block):
     """[(successor, kind, state)] that the block's last instruction may lead to."""
-    insn, out = block.last, []
+    out = []
     known, refine = _decision(state, block)
     for target, kind in block.successors:
         goes = kind != "falls"

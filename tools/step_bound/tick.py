@@ -129,7 +129,7 @@ def show(report):
     cycles = f", {report['cycles']:,} cycles at zero wait states" if report["cycles"] is not None else ""
     print(f"  proved: at most {report['instructions']:,} instructions{cycles}, interrupts apart")
     if report["cycles"] is None:
-        print(f"  no cycles: Arm publishes no table of instruction timings for {report['cpu']}")
+        print("  no cycles: " + (f"Arm publishes no table of instruction timings for {report['cpu']}" if report["cpu"] else "the processor is not named: --cpu"))
     for name, part in report["interrupts"].items():
         cycles = f", {part['cycles']:,} cycles with entry and return" if part["cycles"] is not None else ""
         print(f"  interrupt {name}: at most {part['instructions']:,} instructions{cycles}, every {part['every_us']:g} us at most")
@@ -152,8 +152,9 @@ def _show_time(report):
         print(f"    {name:18} {us:8.1f} us, each time")
     print(f"    the tick's response{time['response_us']:8.1f} us, {time['share_of_tick']:.1%} of a tick"
           + ("" if time["share_of_tick"] <= 1 else ": it does not fit, and no-tick-was-missed does not hold"))
-    way = report.get("way")
-    if way:
+    if "way" in report and report["way"] is None:
+        print("  the way from a picture to the torque command takes a program that knows the bus: build striker-bus-budget, or name it with --bus-budget")
+    elif way := report.get("way"):
         print("  from a picture to the torque command:")
         for what, us, known in way["rows"]:
             print(f"    {us:8.0f} us  {what} ({known})")

@@ -15,6 +15,9 @@ namespace striker::bare_metal {
 
 class SlcanReader {
  public:
+  // 't', identifier and length. No shorter line is looked at.
+  static constexpr std::size_t shortest = 5;
+
   // Takes one letter. True if it ended a frame, which is in `frame` then.
   [[nodiscard]] constexpr bool take(char letter, can::Frame& frame) {
     if (letter != '\r') {
@@ -36,9 +39,6 @@ class SlcanReader {
            : letter >= 'a' && letter <= 'f' ? letter - 'a' + 10
                                             : -1;
   }
-
-  // 't', identifier and length.
-  static constexpr std::size_t shortest = 5;
 
   // Apart: how many lines end in a poll bounds it (tools/step_bound/facts.toml).
   [[gnu::noinline]] static constexpr bool parse(std::string_view line, can::Frame& frame) {
