@@ -26,45 +26,27 @@ bool meet(const PlanarRobot& robot, Vec2 ball_m) {
   return ahead * ahead + beside * beside <= ball_radius_m * ball_radius_m;
 }
 
-void require_robot_0(std::size_t robot) {
-  if (robot != 0) {
-    throw std::out_of_range("PlanarWorld: holds robot 0 only");
-  }
-}
-
-}  // namespace
-
-struct PlanarWorld::Impl {
-  explicit Impl(const WorldConfig& config)
-      : step_s(config.step_s),
-        kept(kept_in_step(config.step_s)),
-        ball_kept(kept_in_step(config.step_s, config.ball_kept_after_1_s)),
-        model(planar_model(config.robots.front())),
-        collision(config, model) {}
-
-  double step_s;
-  double kept;
-  double ball_kept;
-  PlanarModel model;
-  PlanarRobot robot;
-  WheelServos servos{};
-  BallState ball;
-  std::optional<Vec2> normal;
-  bool touched = false;  // robot and ball have met: ODE has both
-  PlanarCollision collision;
-};
-
-PlanarWorld::PlanarWorld(double step_s) : PlanarWorld(WorldConfig{.walls = false, .step_s = step_s}) {}
-
-PlanarWorld::PlanarWorld(const WorldConfig& config) {
+// Refuses what this world is not, before anything is made of it.
+const WorldConfig& checked(const WorldConfig& config) {
   if (config.robots.size() != 1 || config.walls) {
     throw std::invalid_argument("PlanarWorld: holds one robot on an open floor");
   }
   if (!(config.step_s > 0.0)) {
     throw std::invalid_argument("PlanarWorld: step_s must be greater than 0");
   }
-  impl_ = std::make_unique<Impl>(config);
+  return config;
 }
+
+}  // namespace
+
+PlanarWorld::PlanarWorld(double step_s) : PlanarWorld(WorldConfig{.walls = false, .step_s = step_s}) {}
+
+PlanarWorld::PlanarWorld(const WorldConfig& config)
+    : step_s_(checked(config).step_s),
+      kept_(kept_in_step(config.step_s)),
+      ball_kept_(kept_in_step(config.step_s, config.ball_kept_after_1_s)),
+      model_(planar_model(config.robots.front())),
+      collision_(std::make_unique<PlanarCollision>(config, model_)) {}
 
 PlanarWorld::~PlanarWorld() = default;
 PlanarWorld::PlanarWorld(PlanarWorld&&) noexcept = default;
@@ -72,67 +54,42 @@ PlanarWorld& PlanarWorld::operator=(PlanarWorld&&) noexcept = default;
 
 void PlanarWorld::place_robot(std::size_t robot, const Pose& pose) {
   require_robot_0(robot);
-  impl_->robot = planar_robot(pose);
-  impl_->servos = {};
-  impl_->normal.reset();
-  impl_->touched = false;
+  robot_ = planar_robot(pose);
+  servos_ = {};
+  normal_.reset();
+  touched_ = false;
 }
 
 void PlanarWorld::place_ball(const BallState& ball) {
-  impl_->ball = ball;
-  impl_->touched = false;
+  ball_ = ball;
+  touched_ = false;
 }
 
 void PlanarWorld::servo_wheel(std::size_t robot, Wheel wheel, double rim_speed_m_s,
                               double torque_ceiling_Nm) {
   require_robot_0(robot);
-  impl_->servos[static_cast<std::size_t>(wheel)] = {.rim_speed_m_s = rim_speed_m_s,
-                                                    .torque_ceiling_Nm = torque_ceiling_Nm};
+  servos_[static_cast<std::size_t>(wheel)] = {.rim_speed_m_s = rim_speed_m_s,
+                                              .torque_ceiling_Nm = torque_ceiling_Nm};
 }
 
 void PlanarWorld::step() {
-  Impl& world = *impl_;
-  if (!world.touched && meet(world.robot, world.ball.position_m)) {
-    world.touched = true;
-    world.collision.begin(world.robot, world.ball);
+  if (!touched_ && meet(robot_, ball_.position_m)) {
+    touched_ = true;
+    collision_->begin(robot_, ball_);
   }
-  if (world.touched) {
-    world.normal = world.collision.step(world.servos);
-    world.collision.read(world.robot, world.ball);
+  if (touched_) {
+    normal_ = collision_->step(servos_);
+    collision_->read(robot_, ball_);
     return;
   }
-  sil::step(world.robot, world.model, world.servos, world.step_s, world.kept);
-  auto& [position, velocity] = world.ball;
-  position = {position.x + world.step_s * velocity.x, position.y + world.step_s * velocity.y};
-  velocity = {world.ball_kept * velocity.x, world.ball_kept * velocity.y};
+  sil::step(robot_, model_, servos_, step_s_, kept_);
+  auto& [position, velocity] = ball_;
+  position = {position.x + step_s_ * velocity.x, position.y + step_s_ * velocity.y};
+  velocity = {ball_kept_ * velocity.x, ball_kept_ * velocity.y};
 }
 
-std::optional<Vec2> PlanarWorld::ball_contact(std::size_t robot) const {
-  require_robot_0(robot);
-  return impl_->normal;
-}
-
-Pose PlanarWorld::robot_pose(std::size_t robot) const {
-  require_robot_0(robot);
-  return impl_->robot.pose;
-}
-
-Vec2 PlanarWorld::robot_velocity_m_s(std::size_t robot) const {
-  require_robot_0(robot);
-  return impl_->robot.velocity_m_s;
-}
-
-double PlanarWorld::rim_speed_m_s(std::size_t robot, Wheel wheel) const {
-  require_robot_0(robot);
-  return sil::rim_speed_m_s(impl_->robot, impl_->model, wheel);
-}
-
-BallState PlanarWorld::ball() const {
-  return impl_->ball;
-}
-
-double PlanarWorld::step_s() const {
-  return impl_->step_s;
+void PlanarWorld::refuse_robot() {
+  throw std::out_of_range("PlanarWorld: holds robot 0 only");
 }
 
 }  // namespace striker::sil

@@ -23,9 +23,12 @@
 #include <memory>
 #include <optional>
 
+#include "sil/world/planar_robot.hpp"
 #include "sil/world/world.hpp"
 
 namespace striker::sil {
+
+class PlanarCollision;
 
 class PlanarWorld {
  public:
@@ -41,16 +44,44 @@ class PlanarWorld {
   void place_ball(const BallState& ball);
   void servo_wheel(std::size_t robot, Wheel wheel, double rim_speed_m_s, double torque_ceiling_Nm);
   void step();
-  [[nodiscard]] std::optional<Vec2> ball_contact(std::size_t robot) const;
-  [[nodiscard]] Pose robot_pose(std::size_t robot) const;
-  [[nodiscard]] Vec2 robot_velocity_m_s(std::size_t robot) const;
-  [[nodiscard]] double rim_speed_m_s(std::size_t robot, Wheel wheel) const;
-  [[nodiscard]] BallState ball() const;
-  [[nodiscard]] double step_s() const;
+  // Asked at every step of training: so they are inline.
+  [[nodiscard]] std::optional<Vec2> ball_contact(std::size_t robot) const {
+    require_robot_0(robot);
+    return normal_;
+  }
+  [[nodiscard]] Pose robot_pose(std::size_t robot) const {
+    require_robot_0(robot);
+    return robot_.pose;
+  }
+  [[nodiscard]] Vec2 robot_velocity_m_s(std::size_t robot) const {
+    require_robot_0(robot);
+    return robot_.velocity_m_s;
+  }
+  [[nodiscard]] double rim_speed_m_s(std::size_t robot, Wheel wheel) const {
+    require_robot_0(robot);
+    return sil::rim_speed_m_s(robot_, model_, wheel);
+  }
+  [[nodiscard]] BallState ball() const { return ball_; }
+  [[nodiscard]] double step_s() const { return step_s_; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  static void require_robot_0(std::size_t robot) {
+    if (robot != 0) {
+      refuse_robot();
+    }
+  }
+  [[noreturn]] static void refuse_robot();
+
+  double step_s_;
+  double kept_;
+  double ball_kept_;
+  PlanarModel model_;
+  PlanarRobot robot_;
+  WheelServos servos_{};
+  BallState ball_;
+  std::optional<Vec2> normal_;
+  bool touched_ = false;  // robot and ball have met: ODE has both
+  std::unique_ptr<PlanarCollision> collision_;
 };
 
 }  // namespace striker::sil

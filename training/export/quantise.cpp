@@ -34,6 +34,7 @@ struct FloatLayer {
 
 std::vector<FloatLayer> layers_of(const Parameters& parameters) {
   std::vector<FloatLayer> layers;
+  layers.reserve(static_cast<std::size_t>(parameters.shape().layers()));
   for (int layer = 0; layer < parameters.shape().layers(); ++layer) {
     layers.push_back({parameters.weights(layer).cast<double>(), parameters.biases(layer).cast<double>()});
   }
