@@ -207,13 +207,14 @@ std::string hello_text(const ViewFacts& facts) {
   return text_of(Json{{"hello", hello}});  // a team's name is a file's, of any bytes
 }
 
+// A seed is text: a page's numbers have 53 of its 64 bits.
 std::string state_text(const LiveState& state) {
   Json robots = Json::array();
   for (std::size_t robot = 0; robot < state.robot_count; ++robot) {
     robots.push_back(robot_json(state.robots[robot]));
   }
   const Json json = {{"run", state.run},
-                     {"seed", std::to_string(state.seed)},  // all its 64 bits, which a page's numbers have not
+                     {"seed", std::to_string(state.seed)},
                      {"tick", state.tick},
                      {"episode", state.episode},
                      {"deciding", state.deciding},

@@ -16,6 +16,8 @@ import { chromium } from "playwright-core";
 
 export const bin = path.resolve(process.argv[2] ?? "build/bin");
 
+const patience_ms = 300_000;  // a machine may be busy
+
 export function makeFolder() {
   return fs.mkdtempSync(path.join(os.tmpdir(), "striker-browser-"));
 }
@@ -26,6 +28,7 @@ export async function openBrowser() {
   return {
     async open(url) {
       const page = await chrome.newPage();
+      page.setDefaultTimeout(patience_ms);
       page.problems = [];
       page.on("pageerror", (error) => page.problems.push(error.message));
       page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
@@ -43,8 +46,8 @@ export async function openBrowser() {
 }
 
 // What `read` gives, as soon as it is true.
-async function poll(page, read, what, seconds = 60) {
-  for (const end = Date.now() + 1000 * seconds; Date.now() < end; await sleep(30)) {
+async function poll(page, read, what) {
+  for (const end = Date.now() + patience_ms; Date.now() < end; await sleep(30)) {
     const value = await read();
     if (value) {
       return value;

@@ -74,6 +74,7 @@ class Viewer:
             self.fill()
         head, _, self.bytes = self.bytes.partition(b"\r\n\r\n")
         if b" 101 " not in head:
+            self.socket.close()
             raise ConnectionError(head.decode())
         self.state = None
 

@@ -238,7 +238,8 @@ TEST(LiveView, ARunThatIsBegunAnewHasNothingOfWhatWasPressedBefore) {
   Viewed run;
   run.play(two_kicks, [](Viewed& self, std::uint32_t tick) {
     if (tick == 700) {
-      self.put({.action = ViewAction::fault, .robot = 0, .kind = FaultKind::interface_down, .for_ms = 60'000});
+      self.put(
+          {.action = ViewAction::fault, .robot = 0, .kind = FaultKind::interface_down, .for_ms = 60'000});
       self.put({.action = ViewAction::stop});
     } else if (tick == 705) {
       self.put({.action = ViewAction::restart, .seed = two_kicks.seed});

@@ -52,7 +52,8 @@ TEST(StateJson, KnowsTheMessageTableAndWhichFramesAreLockstepsOwn) {
 
 TEST(StateJson, AnEndAndATeamAreTextWhateverTheirBytes) {
   EXPECT_TRUE(nlohmann::json::parse(ended_text("\xff\"</script>")).contains("ended"));
-  const auto hello = nlohmann::json::parse(hello_text({.scenario = "match", .teams = {"\xff"}, .faults = {}}));
+  const auto hello =
+      nlohmann::json::parse(hello_text({.scenario = "match", .teams = {"\xff"}, .faults = {}}));
   EXPECT_EQ(hello["hello"]["teams"].size(), 1U);
 }
 

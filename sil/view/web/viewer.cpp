@@ -20,7 +20,7 @@ constexpr std::chrono::seconds dead_after{20};
 constexpr std::uint32_t most_header_bytes = 4096;
 constexpr int most_kernel_bytes = 128 * 1024;  // that lie in its queue for a slow client
 // So that what is no message, as a ping, costs no more than messages may: 40 of the longest commands.
-constexpr std::size_t most_read_bytes_a_s = 16 * 1024;
+constexpr std::size_t most_read_bytes_a_s = 16'384;
 constexpr double most_commands_at_once = 40.0;
 constexpr double commands_per_s = 20.0;
 
