@@ -19,8 +19,11 @@ import stack_usage  # noqa: E402
 from step_bound import analysis  # noqa: E402
 from step_bound.refusal import Refusal  # noqa: E402
 
-# The network that limits.json is for: others may take as much for each multiply-accumulate, and a quarter more.
+# The network that limits.json is for, 6-64-64-3: others may take as much for each multiply-accumulate, a neuron counting as
+# some of them, and a quarter more.
 MULTIPLY_ACCUMULATES = 6 * 64 + 64 * 64 + 64 * 3
+NEURONS = 64 + 64 + 3
+A_NEURON = 12
 
 
 def build(board, policy, build_dir, targets=("all",)):
@@ -43,12 +46,14 @@ def inference_limit(board, macs, policy):
     is 1 % above what tools/step-bound proves of the paper's network."""
     with open(os.path.join(HERE, "limits.json"), encoding="utf-8") as text:
         limits = json.load(text)[board["cpu"]]
-    with open(policy, encoding="utf-8") as text:
-        int8 = ", std::int8_t> " in text.read()
-    form = "_int8" if int8 else ""
+    with open(policy, encoding="utf-8") as stream:
+        text = stream.read()
+    form = "_int8" if ", std::int8_t> " in text else ""
     inference = limits["inference" + form]
     if macs != MULTIPLY_ACCUMULATES:
-        inference = inference * macs * 5 // (MULTIPLY_ACCUMULATES * 4)
+        sizes = [int(size) for size in re.search(r"constexpr Policy[13]?<([0-9, ]*[0-9])", text)[1].split(", ")]
+        work = macs + A_NEURON * sum(sizes[1:-1])  # without the inputs and the golden vectors
+        inference = inference * work * 5 // ((MULTIPLY_ACCUMULATES + A_NEURON * NEURONS) * 4)
     return inference, limits["step" + form] + max(0, inference - limits["inference" + form])
 
 
