@@ -31,9 +31,7 @@ function sendText(text, isStop) {
   }
 }
 
-function send(command) {
-  sendText(JSON.stringify(command), command.do === "stop");
-}
+const send = (command) => sendText(JSON.stringify(command), command.do === "stop");
 
 socket.addEventListener("open", () => { byId("ended").textContent = ""; });
 socket.addEventListener("close", () => {
@@ -67,9 +65,8 @@ function begin(told) {
 }
 
 function beginFault(kind) {
-  const field = byId("faultMs");
-  if (field.reportValidity()) {
-    send({ do: "fault", robot: chosen, kind, ms: Number(field.value) });
+  if (byId("faultMs").reportValidity()) {
+    send({ do: "fault", robot: chosen, kind, ms: Number(byId("faultMs").value) });
   }
 }
 
@@ -325,7 +322,6 @@ byId("speed").addEventListener("change", () => {
   send({ do: "speed", x: value === "max" ? value : Number(value) });
 });
 byId("restart").addEventListener("click", restart);
-byId("seed").addEventListener("input", () => byId("seed").setCustomValidity(""));
 byId("stop").addEventListener("click", () => send({ do: "stop" }));
 byId("stopOne").addEventListener("click", () => send({ do: "stop", robot: chosen }));
 byId("robot").addEventListener("change", () => {
