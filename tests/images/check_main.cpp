@@ -81,7 +81,6 @@ std::uint32_t hash_of_shapes() {
   hash_answers<synthetic_int8_odd>(hash);
   hash_answers<synthetic_int8_rest>(hash);
   hash_answers<synthetic_int8_paper>(hash);
-  hash_answers<synthetic_int8_wide>(hash);
   hash_answers<synthetic_deep_narrow>(hash);
   hash_answers<synthetic_int8_deep>(hash);
   hash_answers<limit_one>(hash);
