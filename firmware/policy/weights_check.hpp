@@ -27,9 +27,15 @@ constexpr std::uint32_t fnv_next(std::uint32_t hash, std::uint32_t word) {
   return (hash ^ word) * 16777619U;
 }
 
+// A function, since Clang 14 crashes where the size of a variable template of undeduced type is asked.
+template <class Layer>
+constexpr std::uint32_t words_of(const Layer& /*layer*/) {
+  static_assert(sizeof(Layer) % sizeof(std::uint32_t) == 0, "packed weights are whole words");
+  return sizeof(Layer) / sizeof(std::uint32_t);
+}
+
 template <class Layer>
 constexpr std::uint32_t fnv_of(std::uint32_t hash, const Layer& layer) {
-  static_assert(sizeof(Layer) % sizeof(std::uint32_t) == 0, "packed weights are whole words");
   using Words = std::array<std::uint32_t, sizeof(Layer) / sizeof(std::uint32_t)>;
   for (const std::uint32_t word : std::bit_cast<Words>(layer)) {
     hash = fnv_next(hash, word);
@@ -76,8 +82,7 @@ class WeightsCheck {
 
  private:
   static constexpr auto layer_words = []<std::size_t... n>(std::index_sequence<n...>) {
-    return std::array<std::uint32_t, Weights::layers>{sizeof(Weights::template layer<n>) /
-                                                      sizeof(std::uint32_t)...};
+    return std::array<std::uint32_t, Weights::layers>{detail::words_of(Weights::template layer<n>)...};
   }
   (std::make_index_sequence<Weights::layers>{});
 
