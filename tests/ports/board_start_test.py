@@ -4,7 +4,6 @@
 slcan, what the host's check prints, and that it hears frames; striker-controller has to run for 2,000 ticks at least,
 without torque, as nobody arms it, with its heartbeat and its version."""
 
-import argparse
 import os
 import re
 import subprocess
@@ -72,9 +71,7 @@ def check_controller(board, build_dir):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--policy", required=True)
     parser.add_argument("--host", required=True, help="the check program, built for the host")
     parser.add_argument("--build-dir", required=True)

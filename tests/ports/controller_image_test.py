@@ -4,7 +4,6 @@
 recorded run's frames as its bus, tick by tick. It has to arm and decide, and its stack, painted at reset, must not
 have been deeper than the computed bound."""
 
-import argparse
 import os
 import socket
 import struct
@@ -108,10 +107,8 @@ def run(board, image, ticks, symbols):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--recording", required=True)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
     parser.add_argument("--build-dir", required=True, help="the board's, built")
     arguments = parser.parse_args()
     try:

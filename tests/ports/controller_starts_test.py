@@ -4,7 +4,6 @@
 wheel command a tick without torque, and no fault. Where the board has a CAN controller of its own, whose frames are not
 QEMU's, its memory tells the ticks."""
 
-import argparse
 import os
 import struct
 import sys
@@ -85,9 +84,7 @@ def look_into(board):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--build-dir", required=True, help="the board's, built")
     arguments = parser.parse_args()
     entry = qemu_image.read_board(arguments.boards, arguments.board)

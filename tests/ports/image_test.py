@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the images for one board and holds them, on its emulation, to the host's answers and to limits.json."""
 
-import argparse
 import json
 import os
 import re
@@ -72,9 +71,7 @@ def expect(holds, text):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--policy", required=True)
     parser.add_argument("--host", required=True, help="the check program, built for the host")
     parser.add_argument("--recording", help="a run of the simulator with this policy")

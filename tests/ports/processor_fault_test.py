@@ -5,7 +5,6 @@ full, a hang, a write to flash, a call into RAM, a touch of what lies below the 
 record with the right cause, no torque may go out from there on, and the next run has to tell it. An image that breaks
 at every start has to stop after the resets that fault_record.hpp states."""
 
-import argparse
 import contextlib
 import json
 import os
@@ -294,10 +293,8 @@ def hang_in_the_handler(board, image):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--recording", required=True)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
     parser.add_argument("--policy", required=True)
     parser.add_argument("--build-dir", required=True)
     parser.add_argument("--built-for", help="the folder of a board that stands in for it")

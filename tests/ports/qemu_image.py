@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a bare-metal image on the board that QEMU emulates for it, with one nanosecond an instruction unless told otherwise."""
 
+import argparse
 import json
 import os
 import shutil
@@ -21,6 +22,14 @@ def read_boards(path):
             return {board["name"]: board for board in json.load(text) if board["qemu"]}
     except FileNotFoundError:
         raise ImageError(f"no {path}: cmake --preset release writes it") from None
+
+
+def board_parser(description):
+    """Of a program that asks `read_board` for the board that its command line names."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--board", required=True)
+    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    return parser
 
 
 def read_board(path, name):

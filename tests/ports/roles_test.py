@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Three roles and two policies in one image: the same answers as the host's program, to the letter."""
 
-import argparse
 import subprocess
 import sys
 
@@ -11,9 +10,7 @@ import qemu_image
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--host", required=True, help="the program, built for the host")
     parser.add_argument("--build-dir", required=True, help="the board's, built")
     arguments = parser.parse_args()

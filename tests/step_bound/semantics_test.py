@@ -3,7 +3,6 @@
 """Each form of instruction that a board's step or tick has, by itself on QEMU: registers, flags and stack words are drawn, the debugger steps over it, and whatever the
 semantics claim to know afterwards has to be what the processor has. What they leave alone has to be as it was."""
 
-import argparse
 import contextlib
 import os
 import random
@@ -202,9 +201,7 @@ def check(processor, semantics, insn, block, draw):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--image", required=True, help="with the root")
     parser.add_argument("--root", default=analysis.STEP)
     parser.add_argument("--draws", type=int, default=6, help="of each form")

@@ -3,7 +3,6 @@
 """The whole tick of a controller's image is bounded, above its step; without a fact about the port it is refused with its place; and the arithmetic of the response time, by
 an example that can be reckoned by hand. The flow facts for OTAWA are well formed, and have each loop's number."""
 
-import argparse
 import json
 import os
 import re
@@ -18,6 +17,7 @@ sys.path[:0] = [os.path.join(ROOT, "tools"), os.path.join(ROOT, "tests", "ports"
 sys.dont_write_bytecode = True
 
 import image_test  # noqa: E402
+import qemu_image  # noqa: E402
 from step_bound import analysis, ffx, tick  # noqa: E402
 from step_bound.refusal import Refusal  # noqa: E402
 
@@ -113,9 +113,7 @@ def check_flow_facts(image):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--images", required=True, help="the board's build folder")
     parser.add_argument("--policy", help="build the controller there, with this one")
     parser.add_argument("--interrupt", action="append", default=[], help="that the board has; may be repeated")

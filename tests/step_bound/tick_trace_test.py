@@ -3,7 +3,6 @@
 """Real ticks of a board's controller, from its reset on, followed on QEMU through the graph that their bound was proved on: no contradiction, and what ran beside the polls
 of the time between two ticks is within the bound. Nobody sends to it: it receives nothing, and sends what a controller in standby sends."""
 
-import argparse
 import os
 import re
 import sys
@@ -44,9 +43,7 @@ def beside_the_polls(found, bound, edges):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--image", required=True)
     parser.add_argument("--ticks", type=int, default=5)
     arguments = parser.parse_args()

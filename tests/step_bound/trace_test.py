@@ -3,7 +3,6 @@
 """Holds a board's proved bound to real steps: searched and directed ones run on QEMU, each is followed through the graph without a
 contradiction, and the longest of them is within a few per cent of the bound."""
 
-import argparse
 import os
 import sys
 
@@ -62,9 +61,7 @@ def compare(found, bound, checker):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--board", required=True)
-    parser.add_argument("--boards", required=True, help="boards.json, of the host's build folder")
+    parser = qemu_image.board_parser(__doc__)
     parser.add_argument("--image", required=True)
     parser.add_argument("--search", type=int, default=2000)
     parser.add_argument("--directed", type=int, default=60)
