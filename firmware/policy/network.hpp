@@ -52,6 +52,12 @@ constexpr auto pack_layer(const Policy& policy) {
   }
 }
 
+// As a function, since Clang 14 crashes where the size of a variable template of undeduced type is asked.
+template <class Layer>
+constexpr std::size_t bytes_of(const Layer& /*layer*/) {
+  return sizeof(Layer);
+}
+
 // A policy's weights in a kernel's order, layer by layer; the last one is the output's.
 template <const auto& policy, class Kernel = SelectedKernel<policy>>
 struct Packed {
@@ -61,7 +67,7 @@ struct Packed {
   static constexpr auto layer = pack_layer<Kernel, n>(policy);
 
   static constexpr std::size_t bytes = []<std::size_t... n>(std::index_sequence<n...>) {
-    return (sizeof(layer<n>) + ...);
+    return (bytes_of(layer<n>) + ...);
   }
   (std::make_index_sequence<layers>{});
 };

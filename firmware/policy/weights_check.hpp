@@ -27,7 +27,7 @@ constexpr std::uint32_t fnv_next(std::uint32_t hash, std::uint32_t word) {
   return (hash ^ word) * 16777619U;
 }
 
-// A function, since Clang 14 crashes where the size of a variable template of undeduced type is asked.
+// A function for the same reason as bytes_of().
 template <class Layer>
 constexpr std::uint32_t words_of(const Layer& /*layer*/) {
   static_assert(sizeof(Layer) % sizeof(std::uint32_t) == 0, "packed weights are whole words");
