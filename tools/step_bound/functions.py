@@ -127,6 +127,10 @@ class Program:
                 if flow.ends_block:
                     break
                 address = insn.next
+        for start, first, last in self.reader.tables.straight:
+            jumps = [f"{a:#x}" for a, flow in flows.items() for target in flow.jumps if start == function.start and first <= target <= last]
+            if jumps:
+                raise Refusal(f"{function.name}: a jump from {jumps[0]} between a switch's guard and its table's jump at {last:#x}")
         return leaders, flows
 
     def _is_last(self, insn, function):

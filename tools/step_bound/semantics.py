@@ -8,8 +8,8 @@ tested against QEMU (tests/step_bound).
 from . import vector_semantics
 from .instruction import OPPOSITE, Memory, Shift
 from .refusal import Refusal
-from .state import STACK, aligned_stack, join_states
-from .values import MASK, Flags, Pointer, add, holds, logic, shift, signed, subtract
+from .state import aligned_stack, join_states
+from .values import MASK, STACK, Flags, Pointer, Somewhere, add, holds, logic, of_stack, shift, signed, subtract, unknown
 
 NO_EFFECT = frozenset("nop dmb dsb isb pld pli yield hint cpsid cpsie wfi b bl bx cbz cbnz tbb tbh le letp".split())
 UNKNOWN_RESULT = {
@@ -34,26 +34,26 @@ class Semantics:
             if known is False:
                 return state
             if known is None:
-                ran = state.copy()
-                self._execute(ran, insn)
-                return join_states(ran, state)
-        self._execute(state, insn)
-        return state
+                return join_states(self.ran(state.copy(), insn), state)
+        return self.ran(state, insn)
 
-    def _execute(self, state, insn):
+    def ran(self, state, insn):
+        """The same where its condition holds."""
         operation = insn.operation
         if operation in NO_EFFECT or operation.startswith("it"):
-            return
+            return state
         handler = HANDLERS.get(operation)
         if handler is not None:
             handler(self, state, insn)
         elif operation in UNKNOWN_RESULT:
+            made = unmade(state, insn)
             for register in insn.operands[:UNKNOWN_RESULT[operation]]:
-                state.put(register, None)
+                state.put(register, made)
             if insn.sets_flags:
                 state.flags = None
         elif not vector_semantics.execute(state, insn):
             raise Refusal(f"an unknown instruction: {insn}")
+        return state
 
     # ---- operands ---------------------------------------------------------------------------------------------------------
     def value(self, state, operand):
@@ -66,7 +66,7 @@ class Semantics:
         value = self.value(state, operands[0])
         if len(operands) > 1 and isinstance(operands[1], Shift):
             kind, amount = operands[1]
-            return None if kind == "rrx" else shift(kind, value, self.value(state, amount))
+            return unknown(None, value) if kind == "rrx" else shift(kind, value, self.value(state, amount))
         return value
 
     def address(self, state, insn, memory):
@@ -83,28 +83,33 @@ class Semantics:
         return address
 
     def load(self, state, address, width, is_signed):
-        if isinstance(address, int):
-            return self.image.constant(address, width, is_signed)
-        return state.load(address, width, is_signed)
+        constant = self.image.constant(address, width, is_signed) if isinstance(address, int) else None
+        return state.load(address, width, is_signed) if constant is None else constant
 
     @staticmethod
     def named(state, insn, values):
         """Unknown words that were loaded get names, until this instruction runs again."""
         for i, value in enumerate(values):
-            if value is None:
+            if value is None or value == Somewhere():
                 name = f"load{insn.address:x}.{i};"
                 state.forget(name)
-                values[i] = Pointer(name, 0, False)
+                state.forget(STACK + name)
+                values[i] = Pointer(name if value is None else STACK + name, 0, False)
         return values
+
+
+def unmade(state, insn):
+    """What may become of its operands where that is not known: an address on the stack, if one of them is."""
+    return unknown(None, *(state.registers.get(operand) for operand in insn.operands if isinstance(operand, str)))
 
 
 def move(semantics, state, insn):
     value = semantics.last(state, insn.operands[1:])
     if insn.operation == "mvn":
-        value = ~value & MASK if isinstance(value, int) else None
+        value = ~value & MASK if isinstance(value, int) else unknown(None, value)
     elif insn.operation == "movt":
         old = state.registers.get(insn.operands[0])
-        value = old & 0xFFFF | insn.operands[1] << 16 if isinstance(old, int) else None
+        value = old & 0xFFFF | insn.operands[1] << 16 if isinstance(old, int) else unknown(None, old)
     state.put(insn.operands[0], value)
     if insn.sets_flags:
         state.flags = Flags("result", value) if isinstance(value, int) else None
@@ -172,7 +177,7 @@ def compare(semantics, state, insn):
 def multiply(semantics, state, insn):
     operands = three_operands(insn.operands) if insn.operation == "mul" else insn.operands
     values = [semantics.value(state, operand) for operand in operands[1:]]
-    result = None
+    result = unmade(state, insn)
     if all(isinstance(value, int) for value in values):
         product = values[0] * values[1]
         result = product if insn.operation == "mul" else values[2] + (product if insn.operation == "mla" else -product)
@@ -184,7 +189,7 @@ def multiply(semantics, state, insn):
 
 def divide(semantics, state, insn):
     target, a, b = sources(semantics, state, insn)
-    value = None
+    value = unknown(None, a, b)
     if isinstance(a, int) and isinstance(b, int):
         if insn.operation == "sdiv":
             a, b = signed(a), signed(b)
@@ -201,14 +206,14 @@ def extend(semantics, state, insn):
         if insn.operation.startswith("s") and value >> bits - 1:
             value |= MASK << bits & MASK
     else:
-        value = None
+        value = unknown(None, value)
     state.put(insn.operands[0], value)
 
 
 def field(semantics, state, insn):
     value = semantics.value(state, insn.operands[1])
     first, bits = insn.operands[2:4]
-    state.put(insn.operands[0], value >> first & (1 << bits) - 1 if isinstance(value, int) else None)
+    state.put(insn.operands[0], value >> first & (1 << bits) - 1 if isinstance(value, int) else unknown(None, value))
 
 
 def access(semantics, state, insn):
