@@ -88,6 +88,12 @@ PROGRAMS = {
                         "for (unsigned i = 0; i < 6; ++i) sink = work(i)", refused=("no guard", "a helper that jumps"), loose=0.1),
     "a return to data": program("unsigned work(unsigned x, void *p);\n__asm(\".thumb_func\\n.type work, %function\\n.global work\\nwork: push {r1}\\n pop {pc}\\n.size work, . - work\\n\");",
                                 "sink = work(1, main)", refused=("a return that is not known",), always_refused=True),
+    "a far jump that is a call": program("unsigned work(unsigned x);\n__asm(\".thumb_func\\n.type work, %function\\n.global work\\nwork: mov r3, lr\\n bl 1f\\n movs r1, #20\\n 2: subs r1, r1, #1\\n"
+                                         " bne 2b\\n bx r3\\n 1: movs r0, #1\\n bx lr\\n.size work, . - work\\n\");", "sink = work(1)",
+                                         refused=("a return that is not known",), always_refused=True, only="cortex-m4"),
+    "code that changes": program("__asm(\".thumb_func\\n.type patched, %function\\npatched: movs r0, #3\\n bx lr\\n.size patched, . - patched\\n\"); unsigned patched(void);\n"
+                                 "APART unsigned work(unsigned x) { *(volatile unsigned short *)((unsigned)patched & ~1U) = 0x2028; return patched() + x; }",
+                                 refused=("what the image says is constant",), always_refused=True),
     "recursion": program("APART unsigned work(unsigned x) { return x < 2 ? x : work(x - 1) + work(x - 2); }", refused=("a recursion",), always_refused=True),
     "indirect": program("unsigned (*chosen)(unsigned);\nAPART unsigned work(unsigned x) { return chosen(x) + 1; }", "chosen = work; (void)sink",
                         refused=("an indirect call", "an indirect jump"), always_refused=True),

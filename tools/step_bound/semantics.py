@@ -40,13 +40,15 @@ class Semantics:
     def ran(self, state, insn):
         """The same where its condition holds."""
         operation = insn.operation
+        if operation == "bl":  # a far jump, which has the return address of nobody
+            state.put("lr", None)
         if operation in NO_EFFECT or operation.startswith("it"):
             return state
         handler = HANDLERS.get(operation)
         if handler is not None:
             handler(self, state, insn)
         elif operation in UNKNOWN_RESULT:
-            made = unmade(state, insn)
+            made = state.made_of(insn.operands)
             for register in insn.operands[:UNKNOWN_RESULT[operation]]:
                 state.put(register, made)
             if insn.sets_flags:
@@ -86,6 +88,11 @@ class Semantics:
         constant = self.image.constant(address, width, is_signed) if isinstance(address, int) else None
         return state.load(address, width, is_signed) if constant is None else constant
 
+    def store(self, state, insn, address, width, value):
+        if isinstance(address, int) and self.image.bytes_at(address, 1) is not None:
+            raise Refusal(f"a store to what the image says is constant: {insn}")
+        state.store(address, width, value)
+
     @staticmethod
     def named(state, insn, values):
         """Unknown words that were loaded get names, until this instruction runs again."""
@@ -96,11 +103,6 @@ class Semantics:
                 state.forget(STACK + name)
                 values[i] = Pointer(name if value is None else STACK + name, 0, False)
         return values
-
-
-def unmade(state, insn):
-    """What may become of its operands where that is not known: an address on the stack, if one of them is."""
-    return unknown(None, *(state.registers.get(operand) for operand in insn.operands if isinstance(operand, str)))
 
 
 def move(semantics, state, insn):
@@ -177,7 +179,7 @@ def compare(semantics, state, insn):
 def multiply(semantics, state, insn):
     operands = three_operands(insn.operands) if insn.operation == "mul" else insn.operands
     values = [semantics.value(state, operand) for operand in operands[1:]]
-    result = unmade(state, insn)
+    result = state.made_of(insn.operands)
     if all(isinstance(value, int) for value in values):
         product = values[0] * values[1]
         result = product if insn.operation == "mul" else values[2] + (product if insn.operation == "mla" else -product)
@@ -224,7 +226,7 @@ def access(semantics, state, insn):
     address = semantics.address(state, insn, memory)
     if kind == "str":
         for i, value in enumerate(stored):
-            state.store(add(address, 4 * i), width, value)
+            semantics.store(state, insn, add(address, 4 * i), width, value)
         return
     values = [semantics.load(state, add(address, 4 * i), width, is_signed) for i in range(len(registers))]
     for register, value in zip(registers, semantics.named(state, insn, values) if width == 4 else values):
@@ -241,7 +243,7 @@ def several(semantics, state, insn):
     first = add(start, -4 * len(names) & MASK) if downward else start
     if insn.operation in ("push", "stmia", "stmdb"):
         for i, name in enumerate(names):
-            state.store(add(first, 4 * i), 4, state.registers.get(name))
+            semantics.store(state, insn, add(first, 4 * i), 4, state.registers.get(name))
     else:
         values = [semantics.load(state, add(first, 4 * i), 4, False) for i in range(len(names))]
         for name, value in zip(names, semantics.named(state, insn, values)):
@@ -257,10 +259,6 @@ def start_loop(semantics, state, insn):
     state.put("elements a turn", 128 // int(bits) if bits else 1)
 
 
-def move_from_system(_, state, insn):
-    state.flags = None
-
-
 HANDLERS = {
     **dict.fromkeys(("mov", "movw", "movt", "mvn"), move),
     **dict.fromkeys(("add", "addw", "sub", "subw", "rsb", "neg"), arithmetic),
@@ -274,7 +272,7 @@ HANDLERS = {
     **dict.fromkeys(ACCESS, access),
     **dict.fromkeys(("push", "pop", "ldmia", "ldmdb", "stmia", "stmdb"), several),
     **dict.fromkeys(("dls", "wls", *(f"{kind}tp.{bits}" for kind in ("dls", "wls") for bits in (8, 16, 32, 64))), start_loop),
-    "msr": move_from_system,
+    "msr": lambda _, state, insn: setattr(state, "flags", None),
 }
 
 
@@ -325,6 +323,6 @@ def _loop_end(state, insn):
     if len(insn.operands) == 1:  # `le label`: for ever
         return True, None
     count = state.registers.get("lr")
-    step = state.registers.get("elements a turn", 1) if insn.operation == "letp" else 1
-    known = count > step if isinstance(count, int) else None
+    step = state.registers.get("elements a turn") if insn.operation == "letp" else 1
+    known = count > step if isinstance(count, int) and isinstance(step, int) else None
     return known, lambda after, goes: after.put("lr", subtract(count, step)) if goes else None

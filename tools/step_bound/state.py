@@ -51,6 +51,10 @@ class State:
         else:
             self.registers[register] = value
 
+    def made_of(self, operands):
+        """What may become of them where that is not known: an address on the stack, if one of them is."""
+        return unknown(None, *(self.registers.get(operand) for operand in operands if isinstance(operand, str)))
+
     def load(self, address, size, is_signed):
         """Of the stack. A byte or a halfword of a known word is known."""
         value = self.stack.get((address.base, address.offset, size)) if isinstance(address, Pointer) else None

@@ -4,7 +4,7 @@
 import re
 
 from .instruction import REGISTERS, Memory, RegisterList
-from .values import MASK, STACK, Somewhere, add, of_stack, unknown
+from .values import MASK, STACK, Somewhere, add, of_stack
 
 CORE_REGISTERS = frozenset(REGISTERS.values())
 BYTES = {"s": 4, "d": 8, "q": 16}
@@ -41,8 +41,7 @@ def execute(state, insn):
     elif memory is not None:
         _access(state, insn, memory)
     else:
-        made = unknown(None, *(state.registers.get(operand) for operand in operands if isinstance(operand, str)))
-        state.escaped = state.escaped or of_stack(made)  # from a core register into one of its own
+        state.escaped = state.escaped or of_stack(state.made_of(operands))  # from a core register into one of its own
         for operand in operands[:2]:  # a core register that it may write
             if operand in CORE_REGISTERS:
                 state.put(operand, Somewhere() if state.escaped else None)
