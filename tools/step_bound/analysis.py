@@ -6,7 +6,7 @@ import re
 
 from . import abstract_execution
 from .bound import Bound
-from .cycles import TABLES, Cycles, memory_words
+from .cycles import ARCHITECTURES, TABLES, Cycles, memory_words
 from .facts import is_named, read_facts
 from .functions import Program, plain_name, short_name
 from .image import Image
@@ -62,6 +62,8 @@ class Analysis:
             return Bound(self.program, self.root, self.findings, read)
         if cpu not in TABLES:
             raise Refusal(f"Arm publishes no table of instruction timings for {cpu}")
+        if self.program.image.architecture not in ARCHITECTURES[cpu]:
+            raise Refusal(f"the image is for {self.program.image.architecture}, and {cpu} has {' or '.join(ARCHITECTURES[cpu])}")
         cycles = Cycles(cpu)
         return Bound(self.program, self.root, self.findings, read, cycles.block, cycles.edge)
 

@@ -7,6 +7,7 @@ division 12, a long multiplication 5 or 7 on the M3. A load or a store right aft
 """
 
 TABLES = {"cortex-m0plus": "DDI 0484C, table 3-1", "cortex-m3": "DDI 0337I, table 3-1", "cortex-m4": "DDI 0439D, table 3-1"}
+ARCHITECTURES = {"cortex-m0plus": ("v6S-M", "v6-M"), "cortex-m3": ("v7", "v7-M"), "cortex-m4": ("v7E-M",)}
 LONG_MULTIPLICATION = {"smull": 5, "umull": 5, "smlal": 7, "umlal": 7}
 CONDITIONAL_BRANCHES = ("b", "cbz", "cbnz")
 

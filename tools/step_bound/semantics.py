@@ -9,7 +9,7 @@ from . import vector_semantics
 from .instruction import OPPOSITE, Memory, Shift
 from .refusal import Refusal
 from .state import aligned_stack, join_states
-from .values import MASK, STACK, Flags, Pointer, Somewhere, add, holds, logic, of_stack, shift, signed, subtract, unknown
+from .values import MASK, STACK, Flags, Pointer, Somewhere, add, holds, logic, shift, signed, subtract, unknown
 
 NO_EFFECT = frozenset("nop dmb dsb isb pld pli yield hint cpsid cpsie wfi b bl bx cbz cbnz tbb tbh le letp".split())
 UNKNOWN_RESULT = {

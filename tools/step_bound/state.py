@@ -5,7 +5,7 @@ Memory is kept for the stack alone, and for words that a fact says do not change
 change a stack word, and none at an unknown place of the stack changes a return address. A name stands for one value at a time: whoever gives it anew calls `forget` first.
 """
 
-from .values import MASK, STACK, Low, Negated, Pointer, Somewhere, is_stack, join, low, of_stack, unknown
+from .values import MASK, STACK, Negated, Pointer, Somewhere, is_stack, join, low, of_stack, unknown
 
 RETURN = "return "
 
