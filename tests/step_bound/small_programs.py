@@ -94,6 +94,10 @@ PROGRAMS = {
     "code that changes": program("__asm(\".thumb_func\\n.type patched, %function\\npatched: movs r0, #3\\n bx lr\\n.size patched, . - patched\\n\"); unsigned patched(void);\n"
                                  "APART unsigned work(unsigned x) { *(volatile unsigned short *)((unsigned)patched & ~1U) = 0x2028; return patched() + x; }",
                                  refused=("what the image says is constant",), always_refused=True),
+    # The fact was written for the first.
+    "two loops": program("volatile unsigned short_one, long_one; APART unsigned work(unsigned x) { for (unsigned n = short_one; n != 0; --n) sink = x; for (unsigned n = long_one; n != 0; --n) sink = x + n;"
+                         " return x; }", "short_one = 2; long_one = 40; sink = work(1)", facts=[("loop", "work", 2)], refused=("is for 1 of work's loops, but there are 2",),
+                         always_refused=True),
     "recursion": program("APART unsigned work(unsigned x) { return x < 2 ? x : work(x - 1) + work(x - 2); }", refused=("a recursion",), always_refused=True),
     "indirect": program("unsigned (*chosen)(unsigned);\nAPART unsigned work(unsigned x) { return chosen(x) + 1; }", "chosen = work; (void)sink",
                         refused=("an indirect call", "an indirect jump"), always_refused=True),
