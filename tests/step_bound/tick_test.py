@@ -18,8 +18,9 @@ sys.dont_write_bytecode = True
 
 import image_test  # noqa: E402
 import qemu_image  # noqa: E402
-from step_bound import analysis, ffx, tick  # noqa: E402
+from step_bound import analysis, cycles as cycles_of, ffx, instruction, tick  # noqa: E402
 from step_bound.cycles import ARCHITECTURES  # noqa: E402
+from step_bound.functions import Block  # noqa: E402
 from step_bound.refusal import Refusal  # noqa: E402
 
 failed = 0
@@ -47,6 +48,18 @@ def check_response_times():
     expect("--every spi=" in refusal_of(lambda: tick.periods(["spi"], {})), "an interrupt that is not known is refused")
     expect("no such interrupt" in refusal_of(lambda: tick.periods([], {"spi": 7.0})), "so is one that is not there")
     expect(tick.periods(["spi"], {"spi": 7.0}) == {"spi": 7.0}, "or told")
+
+
+def check_cycles():
+    """The examples of DDI 0337I, "Load/store timings", and what it says of the rest."""
+    for text, cycles in (("ldr r0, [r1]; ldr r1, [r2]", 3), ("ldr r0, [r1, r2]; str r0, [r3, #20]", 3), ("ldr r0, [r1, r5]; ldr r1, [r2]; ldr r2, [r3, #4]", 4),
+                         ("ldr r0, [r1]; ldr r2, [r0]", 4), ("add r1, r1, #4; ldr r0, [r1]", 4), ("str r0, [r1, #4]", 1), ("str r0, [r1, #4]; str r2, [r1, #8]", 3),
+                         ("str r0, [r1, #4]; ldr r2, [r1, #8]", 3), ("str r0, [r1, r2]; ldr r3, [r4]", 4), ("ldr r0, [r1], #4; ldr r2, [r3]", 4), ("ldr r0, [pc, #8]", 3),
+                         ("ldr r0, [r1]; ldr pc, [r2]", 7), ("tbb [pc, r0]", 6), ("sub sp, sp, #8; push {r0, r1}", 5), ("dsb", 4)):
+        lines = [line.split(" ", 1) for line in text.split("; ")]
+        insns = [instruction.parse(2 * i, 2, line[0], line[1] if len(line) > 1 else "") for i, line in enumerate(lines)]
+        found = cycles_of.Cycles("cortex-m3").block(Block(0, insns))
+        expect(found == cycles, f"{text}: {found} cycles")
 
 
 def check_wrong_use(image):
@@ -151,6 +164,7 @@ def main():
     if arguments.policy:
         image_test.build(board, arguments.policy, arguments.images, ("striker-controller",))
     check_response_times()
+    check_cycles()
     check_wrong_use("image.elf")
     check_wrong_images()
     check_tick(os.path.join(arguments.images, "bin", "striker-controller.elf"), board["cpu"], sorted(arguments.interrupt),

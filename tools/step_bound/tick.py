@@ -21,6 +21,7 @@ FAULTS = ("reset", "exception")
 
 # Cycles until a handler's first instruction, at zero wait states, and as many for the return: Arm's latencies (Cortex-M0+ TRM DDI 0484C, M3 DDI
 # 0337I, M4 DDI 0439D). Eight words are stored, and loaded again, beside the vector and the code's first words.
+ABANDONED_CYCLES = 12  # of a division or a long load, which begins again after the interrupt
 ENTRY_CYCLES = {"cortex-m0plus": 15, "cortex-m3": 12, "cortex-m4": 12}
 EXCEPTION_ACCESSES = 2 * 8 + 4
 LETTER_US = 10  # of a serial port at 1 Mbaud
@@ -50,7 +51,7 @@ class Part:
         self.instructions = self.bound.total
         self.cycles = self.accesses = None
         if cpu in TABLES:
-            self.cycles = found.bound(frames, cpu).total + (2 * ENTRY_CYCLES[cpu] if interrupt else 0)
+            self.cycles = found.bound(frames, cpu).total + (2 * ENTRY_CYCLES[cpu] + ABANDONED_CYCLES if interrupt else 0)
             self.accesses = found.accesses(frames) + (EXCEPTION_ACCESSES if interrupt else 0)
 
     def us(self, arguments):
