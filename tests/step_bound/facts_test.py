@@ -16,7 +16,7 @@ from step_bound.analysis import FACTS  # noqa: E402
 from step_bound.facts import matches, parse_chain, read_facts  # noqa: E402
 from step_bound.refusal import Refusal  # noqa: E402
 
-PARAMETERS = {"frames": 24, "missed": 0, "weights_slice": 12, "acts_at_once": 1}
+PARAMETERS = {"frames": 24, "missed": 0, "weights_slice": 12, "acts_at_once": 1, "letters_of_a_poll": 8, "lines_of_a_poll": 2}
 WRONG = {
     "no proof": '[a]\ncalls = "f"\nat_most = 1\nbecause = "x"\n',
     "two kinds": '[a]\ncalls = "f"\nloop = "f"\nat_most = 1\nbecause = "x"\nproved_by = "trace"\n',

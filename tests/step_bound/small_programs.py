@@ -98,6 +98,7 @@ PROGRAMS = {
     "two loops": program("volatile unsigned short_one, long_one; APART unsigned work(unsigned x) { for (unsigned n = short_one; n != 0; --n) sink = x; for (unsigned n = long_one; n != 0; --n) sink = x + n;"
                          " return x; }", "short_one = 2; long_one = 40; sink = work(1)", facts=[("loop", "work", 2)], refused=("is for 1 of work's loops, but there are 2",),
                          always_refused=True),
+    "remainder": program("APART unsigned work(unsigned n) { if ((n & 3) != 0) { sink = 1; sink = 2; sink = 3; } return n; }", "sink = work(1); sink = work(4)"),
     "recursion": program("APART unsigned work(unsigned x) { return x < 2 ? x : work(x - 1) + work(x - 2); }", refused=("a recursion",), always_refused=True),
     "indirect": program("unsigned (*chosen)(unsigned);\nAPART unsigned work(unsigned x) { return chosen(x) + 1; }", "chosen = work; (void)sink",
                         refused=("an indirect call", "an indirect jump"), always_refused=True),

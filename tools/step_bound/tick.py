@@ -11,10 +11,10 @@ import subprocess
 import tempfile
 
 from . import analysis
+from .analysis import TURN
 from .cycles import TABLES
 from .refusal import Refusal
 
-TURN = r"loop::TickLoop<.*>::turn\("
 TICK_US = 1_000
 EVERY_US = {"tick_interrupt": 1_000, "can1_reception": 47}  # the timer's period; the shortest frame's 47 bits at 1 Mbit/s
 FAULTS = ("reset", "exception")
