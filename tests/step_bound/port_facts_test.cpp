@@ -120,7 +120,8 @@ TEST(PortFacts, AFrameIs22Letters) {
 // How many lines end among so many letters at most that are long enough to be looked at, whichever letters end one: by how long the line is so far.
 unsigned most_lines(unsigned letters) {
   constexpr auto shortest = static_cast<unsigned>(SlcanReader::shortest);
-  std::array<unsigned, shortest + 1> most{};  // by the line's length before; the longest stands for all that are as long
+  std::array<unsigned, shortest + 1>
+      most{};  // by the line's length before; the longest stands for all that are as long
   for (unsigned left = 0; left < letters; ++left) {
     std::array<unsigned, shortest + 1> before{};
     for (unsigned length = 0; length <= shortest; ++length) {

@@ -60,6 +60,7 @@ class Execution:
         if not isinstance(stack, Pointer) or after.registers.get(STACK) != stack:
             raise Refusal(f"{function.name}: the stack pointer does not come back as it was")
         after = after.copy()
+        after.end_frames(stack)
         for register in KEPT_BY_CALLEES:
             if is_lasting(state.registers.get(register)):
                 after.put(register, state.registers[register])
@@ -92,7 +93,6 @@ class Execution:
         if any(other.loops or uses(other, ("ldr", "ldm", "pop")) for other in below if other is not function):
             for name in ("load", "loop"):  # run in states of their own, they gave them anew
                 entry.forget(name)
-                entry.forget(STACK + name)
         for register in POINTER_ARGUMENTS:
             entry.put(register, made)
         entry.put("r12", None)
@@ -208,7 +208,6 @@ class Execution:
         name = self.loop_names.setdefault((context, loop.head), f"loop{len(self.loop_names)}:")
         state = entry.copy()
         state.forget(name)
-        state.forget(STACK + name)
         while True:
             leaving, _ = self._run_region(function, loop, loop.head, state, context)
             wider = widen(state, leaving[BACK], name) if BACK in leaving else state

@@ -100,7 +100,6 @@ class Semantics:
             if value is None or value == Somewhere():
                 name = f"load{insn.address:x}.{i};"
                 state.forget(name)
-                state.forget(STACK + name)
                 values[i] = Pointer(name if value is None else STACK + name, 0, False)
         return values
 

@@ -98,15 +98,20 @@ class State:
             if narrow is not None:
                 self.stack[(address.base, address.offset, size)] = narrow
 
+    def end_frames(self, pointer):
+        """What lies below the stack pointer is nobody's: an interrupt may write there."""
+        self.stack = {s: v for s, v in self.stack.items() if not ((e := extent(*s)) and e[1] <= pointer.offset)}
+
     def forget(self, name):
-        """Names that begin so will be given anew."""
-        def kept(value):
-            if isinstance(value, (Pointer, Negated)) and value.base.startswith(name):
-                return unknown(low(value), value)
-            return value
-        self.escaped = self.escaped or any(s[0].startswith(name) and of_stack(v) for s, v in self.stack.items())
-        self.registers = {r: k for r, v in self.registers.items() if (k := kept(v)) is not None}
-        self.stack = {s: k for s, v in self.stack.items() if not s[0].startswith(name) and (k := kept(v)) is not None}
+        """Names that begin so will be given anew, also those that may be of the stack."""
+        name = (name, STACK + name)
+        for place in [s for s in self.stack if s[0].startswith(name)]:
+            self.escaped = self.escaped or of_stack(self.stack.pop(place))
+        for known in (self.registers, self.stack):
+            for place in [p for p, v in known.items() if isinstance(v, (Pointer, Negated)) and v.base.startswith(name)]:
+                known[place] = unknown(low(known[place]), known[place])
+                if known[place] is None:
+                    del known[place]
         if self.flags is not None and any(isinstance(v, (Pointer, Negated)) and v.base.startswith(name) for v in self.flags[1:]):
             self.flags = None
 
@@ -127,7 +132,6 @@ def widen(state, back, key):
     """
     clean = back.copy()
     clean.forget(key)
-    clean.forget(STACK + key)
 
     def widened(place, old, new, raw):
         if old == new:
