@@ -16,12 +16,19 @@ from step_bound.analysis import FACTS  # noqa: E402
 from step_bound.facts import matches, parse_chain, read_facts  # noqa: E402
 from step_bound.refusal import Refusal  # noqa: E402
 
-PARAMETERS = {"frames": 24, "missed": 0, "weights_slice": 12, "acts_at_once": 1}
+PARAMETERS = {"frames": 24, "missed": 0, "weights_slice": 12, "acts_at_once": 1, "letters_of_a_poll": 8, "lines_of_a_poll": 2}
 WRONG = {
     "no proof": '[a]\ncalls = "f"\nat_most = 1\nbecause = "x"\n',
     "two kinds": '[a]\ncalls = "f"\nloop = "f"\nat_most = 1\nbecause = "x"\nproved_by = "trace"\n',
     "an unknown number": '[a]\ncalls = "f"\nat_most = "many"\nbecause = "x"\nproved_by = "trace"\n',
     "an unknown field": '[a]\ncalls = "f"\nat_most = 1\nbecause = "x"\nproved_by = "trace"\nmaybe = 1\n',
+    "a number that is negative": '[a]\nloop = "f"\nat_most = -3\nbecause = "x"\nproved_by = "trace"\n',
+    "a number that is not whole": '[a]\ncalls = "f"\nat_most = 0.5\nbecause = "x"\nproved_by = "trace"\n',
+    "a number that is a truth": '[a]\ncalls = "f"\nat_most = true\nbecause = "x"\nproved_by = "trace"\n',
+    "numbers for calls": '[a]\ncalls = "f"\nat_most = [1, 2]\nbecause = "x"\nproved_by = "trace"\n',
+    "a chain that is a number": '[a]\ncalls = 7\nat_most = 1\nbecause = "x"\nproved_by = "trace"\n',
+    "a chain without an end": '[a]\ncalls = "f > "\nat_most = 1\nbecause = "x"\nproved_by = "trace"\n',
+    "an unknown condition": '[a]\ncalls = "f"\nat_most = 1\nwhen = "maybe"\nbecause = "x"\nproved_by = "trace"\n',
     "no TOML": "[a\n",
 }
 

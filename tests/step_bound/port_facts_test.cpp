@@ -3,6 +3,8 @@
 // microsecond or by a pause of up to seconds, and frames come as they like.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -115,21 +117,26 @@ TEST(PortFacts, AFrameIs22Letters) {
   }
 }
 
-// Any 8 letters, after any that came before: of the lines that end among them two at most are long enough to be looked at.
-TEST(PortFacts, EightLettersEndTwoLines) {
+// How many lines end among so many letters at most that are long enough to be looked at, whichever letters end one: by how long the line is so far.
+unsigned most_lines(unsigned letters) {
   constexpr auto shortest = static_cast<unsigned>(SlcanReader::shortest);
-  for (unsigned before = 0; before <= shortest; ++before) {
-    for (unsigned ends = 0; ends < 1U << 8U; ++ends) {
-      unsigned length = before;
-      unsigned looked_at = 0;
-      for (unsigned at = 0; at < 8; ++at) {
-        const bool is_end = (ends >> at & 1U) != 0;
-        looked_at += is_end && length >= shortest ? 1U : 0U;
-        length = is_end ? 0 : length + 1;
-      }
-      ASSERT_LE(looked_at, 2U);
+  std::array<unsigned, shortest + 1>
+      most{};  // by the line's length before; the longest stands for all that are as long
+  for (unsigned left = 0; left < letters; ++left) {
+    std::array<unsigned, shortest + 1> before{};
+    for (unsigned length = 0; length <= shortest; ++length) {
+      const unsigned if_it_ends = most[0] + (length == shortest ? 1U : 0U);
+      before[length] = std::max(if_it_ends, most[std::min(length + 1, shortest)]);
     }
+    most = before;
   }
+  return *std::max_element(most.begin(), most.end());
+}
+
+// Any letters, after any that came before.
+TEST(PortFacts, LettersEndSoManyLines) {
+  EXPECT_EQ(most_lines(8), 2U);
+  EXPECT_EQ(most_lines(24), 4U);
 }
 
 // On a board, whose sizes have 32 bits, and without the padding behind its last member.

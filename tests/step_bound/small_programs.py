@@ -65,6 +65,40 @@ PROGRAMS = {
                            "APART unsigned top(unsigned n) { unsigned s = 0; for (unsigned i = 0; i < 3; ++i) if (data[i] != n) s += read(i); return s; }\n"
                            "APART unsigned work(unsigned x) { return top(x) + 1; }", "sink = work(1); sink = work(2)", facts=[("calls", "read", 2, {"contexts": 1})],
                            loose=0.5),
+    # What the analysis must not know: a count on the stack that is overwritten through an address which it has lost sight of, a number that wraps, a switch whose guard was left out.
+    "an index": program("APART unsigned work(unsigned x) { unsigned n[4] = {3, 3, 3, 3}; n[x & 3] = 40; unsigned k = n[1]; for (unsigned i = 0; i < k; ++i) sink = i; return x; }",
+                        "sink = work(1)", refused=("the loop at",), always_refused=True),
+    "an index of bytes": program("APART unsigned work(unsigned x) { unsigned char n[8] = {3, 3, 3, 3, 3, 3, 3, 3}; n[x] = 40; for (unsigned i = 0; i < n[4]; ++i) sink = i; return n[x + 1]; }",
+                                 "sink = work(4)", refused=("the loop at",), always_refused=True),
+    "one of two": program("APART unsigned work(unsigned x) { volatile unsigned a = 3, b = 3; volatile unsigned *p = x ? &a : &b; *p = 40; unsigned k = a; for (unsigned i = 0; i < k; ++i) sink = i;"
+                          " return x; }", "sink = work(1)", refused=("the loop at",), always_refused=True),
+    "a kept address": program("volatile unsigned *volatile kept; APART void set(unsigned v) { *kept = v; }\nAPART unsigned work(unsigned x) { volatile unsigned a = 3; kept = &a; set(40);"
+                              " unsigned k = a; for (unsigned i = 0; i < k; ++i) sink = i; return x; }", "sink = work(1)", refused=("the loop at",), always_refused=True),
+    "an irreducible callee": program("APART void odd(unsigned x, volatile unsigned *p) { *p = 40; __asm volatile(\"cmp %0, #3\\n bne 2f\\n 1: nop\\n nop\\n nop\\n nop\\n 2: subs %0, %0, #1\\n nop\\n"
+                                     " nop\\n nop\\n nop\\n bpl 1b\" : \"+l\"(x) : : \"cc\"); }\nAPART unsigned work(unsigned x) { volatile unsigned a = 3; odd(5, &a); unsigned k = a;"
+                                     " for (unsigned i = 0; i < k; ++i) sink = i; return x; }", "sink = work(2)", facts=[("back", "odd", 8)], refused=("the loop at",),
+                                     always_refused=True, only="cortex-m4"),
+    "scattered": program("#include <arm_mve.h>\nAPART unsigned work(unsigned x) { unsigned n[4] = {3, 3, 3, 3}; vstrwq_scatter_shifted_offset_u32(n, vdupq_n_u32(1), vdupq_n_u32(40));"
+                         " unsigned k = *(volatile unsigned *)(n + 1); for (unsigned i = 0; i < k; ++i) sink = i; return n[x & 3]; }", "sink = work(2)", refused=("the loop at",),
+                         always_refused=True, only="cortex-m55"),
+    "a number that wraps": program("APART unsigned work(unsigned n) { unsigned k = 0; for (unsigned i = n; i <= n + 4; ++i) { sink = i; if (++k == 40) break; } return k; }",
+                                   "sink = work(-5); sink = work(5)", loose=0.05),
+    "no guard": program("APART unsigned work(unsigned x) { if (x == 2) sink = 1; switch (x) { case 0: return 7; case 1: sink = 1; return 9; case 2: sink = 2; sink = 3; return 1; case 3: sink = 5;"
+                        " sink = 6; return 8; case 4: sink = 4; return 2; case 5: sink = 9; sink = 1; sink = 5; sink = 4; sink = 9; sink = 8; return 3; default: __builtin_unreachable(); } }",
+                        "for (unsigned i = 0; i < 6; ++i) sink = work(i)", refused=("no guard", "a helper that jumps"), loose=0.1),
+    "a return to data": program("unsigned work(unsigned x, void *p);\n__asm(\".thumb_func\\n.type work, %function\\n.global work\\nwork: push {r1}\\n pop {pc}\\n.size work, . - work\\n\");",
+                                "sink = work(1, main)", refused=("a return that is not known",), always_refused=True),
+    "a far jump that is a call": program("unsigned work(unsigned x);\n__asm(\".thumb_func\\n.type work, %function\\n.global work\\nwork: mov r3, lr\\n bl 1f\\n movs r1, #20\\n 2: subs r1, r1, #1\\n"
+                                         " bne 2b\\n bx r3\\n 1: movs r0, #1\\n bx lr\\n.size work, . - work\\n\");", "sink = work(1)",
+                                         refused=("a return that is not known",), always_refused=True, only="cortex-m4"),
+    "code that changes": program("__asm(\".thumb_func\\n.type patched, %function\\npatched: movs r0, #3\\n bx lr\\n.size patched, . - patched\\n\"); unsigned patched(void);\n"
+                                 "APART unsigned work(unsigned x) { *(volatile unsigned short *)((unsigned)patched & ~1U) = 0x2028; return patched() + x; }",
+                                 refused=("what the image says is constant",), always_refused=True),
+    # The fact was written for the first.
+    "two loops": program("volatile unsigned short_one, long_one; APART unsigned work(unsigned x) { for (unsigned n = short_one; n != 0; --n) sink = x; for (unsigned n = long_one; n != 0; --n) sink = x + n;"
+                         " return x; }", "short_one = 2; long_one = 40; sink = work(1)", facts=[("loop", "work", 2)], refused=("is for 1 of work's loops, but there are 2",),
+                         always_refused=True),
+    "remainder": program("APART unsigned work(unsigned n) { if ((n & 3) != 0) { sink = 1; sink = 2; sink = 3; } return n; }", "sink = work(1); sink = work(4)"),
     "recursion": program("APART unsigned work(unsigned x) { return x < 2 ? x : work(x - 1) + work(x - 2); }", refused=("a recursion",), always_refused=True),
     "indirect": program("unsigned (*chosen)(unsigned);\nAPART unsigned work(unsigned x) { return chosen(x) + 1; }", "chosen = work; (void)sink",
                         refused=("an indirect call", "an indirect jump"), always_refused=True),

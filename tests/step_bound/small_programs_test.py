@@ -15,7 +15,7 @@ sys.dont_write_bytecode = True
 
 import qemu_trace  # noqa: E402
 from small_programs import CORES, LEVELS, PROGRAMS  # noqa: E402
-from step_bound import abstract_execution  # noqa: E402
+from step_bound import abstract_execution, analysis  # noqa: E402
 from step_bound.bound import Bound  # noqa: E402
 from step_bound.facts import Fact, parse_chain, parse_chains  # noqa: E402
 from step_bound.functions import Program  # noqa: E402
@@ -114,9 +114,18 @@ def examine(folder, name, program, core, level):
     return (None if 0 <= loose <= program.get("loose", 0) * max(longest, 1) else verdict), verdict
 
 
+def check_root(folder):
+    """The arguments of a function that --root names may be any numbers."""
+    program = PROGRAMS["remainder"]
+    image, _ = compile_program(folder, CORES[0], "-O1", program["source"])
+    totals = analysis.Analysis(image, "^work$").bound().total, bound_of(image, program)[0].total
+    print(f"{'ok' if totals[0] == totals[1] else 'FAILED'}: as --root: {totals[0]} of {totals[1]} instructions")
+    return totals[0] != totals[1]
+
+
 def main():
-    failed = 0
     with tempfile.TemporaryDirectory() as folder:
+        failed = int(check_root(folder))
         for core in CORES:
             for name, program in PROGRAMS.items():
                 for level in LEVELS:

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 from .functions import short_name
 from .refusal import Refusal
 from .semantics import Semantics, branches
-from .state import STACK, State, join_states, widen
-from .values import Pointer
+from .state import RETURN, State, is_return, join_states, widen
+from .values import STACK, Pointer, Somewhere, is_stack, unknown
 
 MOST_TURNS = 2000
 POINTER_ARGUMENTS = ("r0", "r1", "r2", "r3")
@@ -47,6 +47,8 @@ class Execution:
         self.findings.contexts[context] = start
         entry = state.copy()
         entry.flags = None
+        entry.forget(return_address(function).base)
+        entry.put("lr", return_address(function))
         self._learn(function, entry)
         if function.irreducible:
             return self._skip(function, entry, context)
@@ -55,9 +57,10 @@ class Execution:
         if after is None:
             return None
         stack = state.registers.get(STACK)
-        if stack is None or after.registers.get(STACK) != stack:
+        if not isinstance(stack, Pointer) or after.registers.get(STACK) != stack:
             raise Refusal(f"{function.name}: the stack pointer does not come back as it was")
         after = after.copy()
+        after.end_frames(stack)
         for register in KEPT_BY_CALLEES:
             if is_lasting(state.registers.get(register)):
                 after.put(register, state.registers[register])
@@ -73,7 +76,8 @@ class Execution:
                 state.stack[(base.base, base.offset + offset, 4)] = value
 
     def _skip(self, function, entry, context):
-        """An irreducible function, as libgcc's division on Armv6-M: taken for one that keeps to the calling convention."""
+        """An irreducible function, as libgcc's division on Armv6-M: taken for one that keeps to the calling convention. If it or what it calls
+        stores anything but what it pushes, nothing is known of memory after it."""
         for block in function.blocks.values():
             for target, kind in block.successors:
                 self.findings.feasible.add((context, block.start, target, kind))
@@ -81,8 +85,18 @@ class Execution:
                 self.call(block.callee, State({STACK: entry.registers.get(STACK)}), context + (block.last.address,))
         for loop in function.loops:
             self.findings.turns[(context, loop.head)] = None
-        for register in ("r0", "r1", "r2", "r3", "r12", "lr"):
-            entry.put(register, None)
+        made = unknown(None, *(entry.registers.get(register) for register in POINTER_ARGUMENTS))
+        below = [self.program.function(start) for start in self.program.reachable(function.start)]
+        if any(uses(other, ("str", "stm", "vst")) for other in below):
+            made, entry.escaped = Somewhere(), True
+            entry.stack = {place: value for place, value in entry.stack.items() if is_return(value) or not is_stack(place[0])}
+        if any(other.loops or uses(other, ("ldr", "ldm", "pop")) for other in below if other is not function):
+            for name in ("load", "loop"):  # run in states of their own, they gave them anew
+                entry.forget(name)
+        for register in POINTER_ARGUMENTS:
+            entry.put(register, made)
+        entry.put("r12", None)
+        entry.put("lr", None)
         return entry
 
     # ---- regions: a function's body, or one turn of a loop --------------------------------------------------------------------
@@ -95,7 +109,7 @@ class Execution:
                 continue
             inner = self._inner_loop(function, start, loop)
             if inner is None:
-                edges = self._run_block(function.blocks[start], at[start], context)
+                edges = self._run_block(function, function.blocks[start], at[start], context)
                 for target, kind, _ in edges:
                     passes[(start, target, kind)] = 1
             elif inner.head == start:
@@ -118,10 +132,12 @@ class Execution:
         around = [l for l in function.loops if start in l.body and l is not loop and (loop is None or l.body < loop.body)]
         return max(around, key=lambda l: len(l.body)) if around else None
 
-    def _run_block(self, block, state, context):
+    def _run_block(self, function, block, state, context):
         state = state.copy()
         for insn in block.instructions[:-1]:
             state = self.semantics.execute(state, insn)
+        if block.is_tail_call or (None, "return") in block.successors:
+            self._check_return(function, block, state)
         if block.callee is None:
             if insn_decides(block):
                 return self._remember(block, branches(state, block), context)
@@ -134,6 +150,14 @@ class Execution:
             if not block.successors:
                 raise Refusal(f"a call that returns where its function ends: {block.last}")
         return self._remember(block, branches(state, block), context)
+
+    def _check_return(self, function, block, state):
+        """To its caller, and not to any address that happens to be in the register or on the stack."""
+        register = "lr" if block.is_tail_call else block.last.operands[0] if block.last.operation == "bx" else "pc"
+        if register == "pc":
+            state = self.semantics.ran(state.copy(), block.last)
+        if state.registers.get(register) != return_address(function):
+            raise Refusal(f"{function.name}: a return that is not known to lead to its caller: {block.last}")
 
     def _remember(self, block, edges, context):
         self.findings.feasible.update((context, block.start, target, kind) for target, kind, _ in edges)
@@ -184,7 +208,6 @@ class Execution:
         name = self.loop_names.setdefault((context, loop.head), f"loop{len(self.loop_names)}:")
         state = entry.copy()
         state.forget(name)
-        state.forget(STACK + name)
         while True:
             leaving, _ = self._run_region(function, loop, loop.head, state, context)
             wider = widen(state, leaving[BACK], name) if BACK in leaving else state
@@ -192,6 +215,14 @@ class Execution:
                 leaving.pop(BACK, None)
                 return leaving
             state = wider
+
+
+def return_address(function):
+    return Pointer(f"{RETURN}{function.start:x};", 0, False)
+
+
+def uses(function, operations):
+    return any(insn.operation.startswith(operations) for block in function.blocks.values() for insn in block.instructions)
 
 
 def is_lasting(value):

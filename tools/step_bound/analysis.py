@@ -6,7 +6,7 @@ import re
 
 from . import abstract_execution
 from .bound import Bound
-from .cycles import TABLES, Cycles, memory_words
+from .cycles import ARCHITECTURES, TABLES, Cycles, memory_words
 from .facts import is_named, read_facts
 from .functions import Program, plain_name, short_name
 from .image import Image
@@ -14,6 +14,8 @@ from .refusal import Refusal
 
 FACTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "facts.toml")
 STEP = r"loop::GatedNode<.*>::step\("
+TURN = r"loop::TickLoop<.*>::turn\("
+OF_OBJECTS = (STEP, TURN)  # whose arguments are objects
 WEIGHTS = r"WeightsCheck.*layer_words"
 PASS_TICKS = 500  # firmware/policy/weights_check.hpp
 
@@ -41,10 +43,14 @@ class Analysis:
         self.reachable = self.program.reachable(self.root)
         self.late, self.facts, self.missed = late, facts, missed
         words = [(fact.chains[0][0][0], "r0", fact.offset, fact.at_most) for fact in self.facts_for(0) if fact.kind == "word"]
-        self.findings = abstract_execution.run(self.program, self.root, words)
+        # A clone that GCC made may be given their members instead.
+        are_objects = root in OF_OBJECTS and "[clone" not in self.program.symbols[self.root][0]
+        self.findings = abstract_execution.run(self.program, self.root, words, are_objects)
 
     def facts_for(self, frames):
         parameters = {"frames": frames, "missed": self.missed, "acts_at_once": int(not self.late), "weights_slice": self._weights_slice()}
+        is_slow = self.program.image.architecture in ARCHITECTURES["cortex-m0plus"]  # with the nRF51's FIFO
+        parameters |= {"letters_of_a_poll": 24 if is_slow else 8, "lines_of_a_poll": 4 if is_slow else 2}
         names = [self.program.symbols[start][0] for start in self.reachable]
         return [fact for fact in read_facts(self.facts, parameters)
                 if not fact.image_with or any(is_named(name, fact.image_with) for name in names)]
@@ -62,6 +68,8 @@ class Analysis:
             return Bound(self.program, self.root, self.findings, read)
         if cpu not in TABLES:
             raise Refusal(f"Arm publishes no table of instruction timings for {cpu}")
+        if self.program.image.architecture not in ARCHITECTURES[cpu]:
+            raise Refusal(f"the image is for {self.program.image.architecture}, and {cpu} has {' or '.join(ARCHITECTURES[cpu])}")
         cycles = Cycles(cpu)
         return Bound(self.program, self.root, self.findings, read, cycles.block, cycles.edge)
 

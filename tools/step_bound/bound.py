@@ -31,6 +31,7 @@ class Bound:
         self.turns = {}    # (context, head): how often a loop turns back at most for one entry
         self.shared_turns = {}  # (fact with a `plus`, head) -> [(context, turns for one entry)]: in all contexts together
         self.loop_facts = []    # (fact without one, context, head, turns for one entry)
+        self.fact_heads = {}    # (fact, context) -> the loops that it is for
         self.backs = {}    # (context, irreducible part): how often it goes back at most in one call
         self.used_facts, self.unbounded = set(), []
         self.turns_together = {}  # (fact, context) -> [(head, the variables of what goes back to it)]
@@ -138,6 +139,10 @@ class Bound:
             called_by = plain_name(self.chain(context[:-1])[-1]) if context else "nobody"
             self.unbounded.append(f"{plain_name(function.name)}, called by {called_by}: the loop at {loop.head:#x}")
         for fact in facts:
+            heads = self.fact_heads.setdefault((fact, context), set())
+            heads.add(loop.head)
+            if len(heads) > fact.loops:
+                raise Refusal(f"the fact [{fact.name}] is for {fact.loops} of {plain_name(function.name)}'s loops, but there are {len(heads)}: the last at {loop.head:#x}")
             turns = turns_of(fact.at_most, function, loop)
             if not fact.plus:
                 self.loop_facts.append((fact, context, loop.head, turns))

@@ -6,11 +6,11 @@ is counted.
 """
 
 import re
-import subprocess
 
 import capstone
 
 from . import instruction
+from .image import binutils
 from .refusal import Refusal
 
 LINE = re.compile(r"^\s*([0-9a-f]+):\t([0-9a-f ]+?)\s*\t(\S+)\s*(.*)$")
@@ -19,8 +19,7 @@ LINE = re.compile(r"^\s*([0-9a-f]+):\t([0-9a-f ]+?)\s*\t(\S+)\s*(.*)$")
 def disassemble(image):
     """Every line of the listing that is no data, by address."""
     machine = ["-m", "armv8.1-m.main"] if image.is_armv8_1m else []  # without it objdump knows no MVE
-    listing = subprocess.run(["arm-none-eabi-objdump", "-d", *machine, image.path], check=True, capture_output=True,
-                             text=True).stdout
+    listing = binutils("objdump", image.path, "-d", *machine)
     found = {}
     for line in listing.splitlines():
         match = LINE.match(line)
@@ -28,6 +27,8 @@ def disassemble(image):
             address, size = int(match[1], 16), len(match[2].replace(" ", "")) // 2
             operands = re.split(r"\s*[;@]", match[4])[0].strip()
             found[address] = instruction.parse(address, size, match[3], operands)
+    if not found:
+        raise Refusal(f"{image.path}: no code")
     return found
 
 

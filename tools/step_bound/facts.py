@@ -11,6 +11,7 @@
 
 `plus`, chains too, lets there be one more for each call of them (two where one stands twice). With `contexts` the number is for each calling
 context by itself, and the image has to have exactly so many of them. Instead of `calls`: `loop`, a function whose loop the analysis could not count runs its body at most so often for one entry into it;
+with `loops` so many loops of that function, each (one, unless told: a loop of another function that the compiler put there would get its number, and is refused);
 `turns`, all loops of a function that the analysis could not count go back at most so often in one call, together; `back`, each irreducible part of a function goes back at most so often in one call (a list: one number for each part); `word`, a function, `offset` bytes behind whose first argument a
 word has the value `at_most`, all the time. `when` names a parameter: the fact is left out where that is 0. `image_with` names a function, as chains do: it is left out where the
 root never calls that. With `more` each call of `plus` allows so many more.
@@ -26,7 +27,9 @@ from .refusal import Refusal
 
 KINDS = ("calls", "loop", "turns", "back", "word")
 FIELDS = {"at_most", "because", "proved_by"}
-OPTIONAL = {"plus", "more", "offset", "when", "contexts", "image_with"}
+OPTIONAL = {"plus", "more", "offset", "when", "contexts", "image_with", "loops"}
+NUMBERS = {"offset": 0, "contexts": 0, "more": 1, "loops": 1}  # that may be left out
+CHAIN = re.compile(r"\S[^>]*( >>? \S[^>]*)*|.*<.*")
 
 
 @dataclass(eq=False)
@@ -42,6 +45,7 @@ class Fact:
     contexts: int = 0  # each by itself
     more: int = 1
     image_with: str = ""
+    loops: int = 1     # of one function, for `loop`
 
     def covers(self, chain):
         """How often a chain of functions' names, from the root, is among those meant: each counts."""
@@ -108,6 +112,22 @@ def _fact(path, name, fields, parameters):
         if at_most not in parameters:
             raise Refusal(f"{path}: [{name}]: at_most = '{at_most}' is no number, and none of {', '.join(parameters)}")
         at_most = parameters[at_most]
+    _require_values(path, name, kinds[0], {**NUMBERS, **fields, "at_most": at_most})
+    if fields.get("when", "frames") not in parameters:
+        raise Refusal(f"{path}: [{name}]: when = '{fields['when']}' is none of {', '.join(parameters)}")
     return Fact(name, kinds[0], parse_chains(fields[kinds[0]]), at_most, parse_chains(fields.get("plus", [])),
-                fields["because"], fields["proved_by"], fields.get("offset", 0), fields.get("contexts", 0), fields.get("more", 1),
-                fields.get("image_with", ""))
+                fields["because"], fields["proved_by"], image_with=fields.get("image_with", ""),
+                **{field: fields.get(field, number) for field, number in NUMBERS.items()})
+
+
+def _require_values(path, name, kind, fields):
+    """Each of its type: a number that is negative or no whole one would make a bound of anything."""
+    for field in ("at_most", *NUMBERS):
+        values = fields[field] if isinstance(fields[field], list) and field == "at_most" and kind == "back" else [fields[field]]
+        if not all(type(value) is int and 0 <= value <= 0xFFFFFFFF for value in values):
+            raise Refusal(f"{path}: [{name}]: {field} = {fields[field]} is no whole number from 0 to 2^32 - 1")
+    for field in (kind, "plus"):
+        chains = fields.get(field, [])
+        chains = [chains] if isinstance(chains, str) else chains
+        if not isinstance(chains, list) or not all(isinstance(chain, str) and CHAIN.fullmatch(chain) for chain in chains):
+            raise Refusal(f"{path}: [{name}]: {field} = {chains} is no chain of functions")

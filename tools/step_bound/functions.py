@@ -21,6 +21,7 @@ class Block:
     instructions: list = field(default_factory=list)
     successors: list = field(default_factory=list)  # (start of a block, or None for a return, kind)
     callee: Optional[int] = None
+    after: Optional[object] = None                  # the instruction that may run right before it, where that is no branch
     is_tail_call: bool = False                      # a jump to another function: the callee returns to the caller
 
     @property
@@ -127,6 +128,10 @@ class Program:
                 if flow.ends_block:
                     break
                 address = insn.next
+        for start, first, last in self.reader.tables.straight:
+            jumps = [f"{a:#x}" for a, flow in flows.items() for target in flow.jumps if start == function.start and first <= target <= last]
+            if jumps:
+                raise Refusal(f"{function.name}: a jump from {jumps[0]} between a switch's guard and its table's jump at {last:#x}")
         return leaders, flows
 
     def _is_last(self, insn, function):
@@ -170,6 +175,9 @@ class Program:
                 block.callee, block.is_tail_call = outside[0], True
                 block.successors.append((None, "tail"))
             function.blocks[leader] = block
+        for block in list(function.blocks.values()):
+            if not flows[block.last.address].ends_block:
+                function.blocks[block.last.next].after = block.last
 
     def reachable(self, root):
         """The functions that a call of `root` may run, callees first. A recursion is refused."""

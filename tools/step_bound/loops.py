@@ -104,7 +104,7 @@ def _copy_entry(function, small, head, part):
     block = function.blocks[small]
     if len(block.instructions) > MOST_COPIED or block.callee is not None or [t for t, _ in block.successors] != [head]:
         return False
-    twin = type(block)(small | 1, block.instructions, list(block.successors))
+    twin = type(block)(small | 1, block.instructions, list(block.successors), after=block.after)
     for other in function.blocks.values():
         if other.start not in part:
             other.successors = [(twin.start if t == small else t, kind) for t, kind in other.successors]

@@ -8,8 +8,8 @@ tested against QEMU (tests/step_bound).
 from . import vector_semantics
 from .instruction import OPPOSITE, Memory, Shift
 from .refusal import Refusal
-from .state import STACK, aligned_stack, join_states
-from .values import MASK, Flags, Pointer, add, holds, logic, shift, signed, subtract
+from .state import aligned_stack, join_states
+from .values import MASK, STACK, Flags, Pointer, Somewhere, add, holds, logic, shift, signed, subtract, unknown
 
 NO_EFFECT = frozenset("nop dmb dsb isb pld pli yield hint cpsid cpsie wfi b bl bx cbz cbnz tbb tbh le letp".split())
 UNKNOWN_RESULT = {
@@ -34,26 +34,28 @@ class Semantics:
             if known is False:
                 return state
             if known is None:
-                ran = state.copy()
-                self._execute(ran, insn)
-                return join_states(ran, state)
-        self._execute(state, insn)
-        return state
+                return join_states(self.ran(state.copy(), insn), state)
+        return self.ran(state, insn)
 
-    def _execute(self, state, insn):
+    def ran(self, state, insn):
+        """The same where its condition holds."""
         operation = insn.operation
+        if operation == "bl":  # a far jump, which has the return address of nobody
+            state.put("lr", None)
         if operation in NO_EFFECT or operation.startswith("it"):
-            return
+            return state
         handler = HANDLERS.get(operation)
         if handler is not None:
             handler(self, state, insn)
         elif operation in UNKNOWN_RESULT:
+            made = state.made_of(insn.operands)
             for register in insn.operands[:UNKNOWN_RESULT[operation]]:
-                state.put(register, None)
+                state.put(register, made)
             if insn.sets_flags:
                 state.flags = None
         elif not vector_semantics.execute(state, insn):
             raise Refusal(f"an unknown instruction: {insn}")
+        return state
 
     # ---- operands ---------------------------------------------------------------------------------------------------------
     def value(self, state, operand):
@@ -66,7 +68,7 @@ class Semantics:
         value = self.value(state, operands[0])
         if len(operands) > 1 and isinstance(operands[1], Shift):
             kind, amount = operands[1]
-            return None if kind == "rrx" else shift(kind, value, self.value(state, amount))
+            return unknown(None, value) if kind == "rrx" else shift(kind, value, self.value(state, amount))
         return value
 
     def address(self, state, insn, memory):
@@ -83,28 +85,32 @@ class Semantics:
         return address
 
     def load(self, state, address, width, is_signed):
-        if isinstance(address, int):
-            return self.image.constant(address, width, is_signed)
-        return state.load(address, width, is_signed)
+        constant = self.image.constant(address, width, is_signed) if isinstance(address, int) else None
+        return state.load(address, width, is_signed) if constant is None else constant
+
+    def store(self, state, insn, address, width, value):
+        if isinstance(address, int) and self.image.bytes_at(address, 1) is not None:
+            raise Refusal(f"a store to what the image says is constant: {insn}")
+        state.store(address, width, value)
 
     @staticmethod
     def named(state, insn, values):
         """Unknown words that were loaded get names, until this instruction runs again."""
         for i, value in enumerate(values):
-            if value is None:
+            if value is None or value == Somewhere():
                 name = f"load{insn.address:x}.{i};"
                 state.forget(name)
-                values[i] = Pointer(name, 0, False)
+                values[i] = Pointer(name if value is None else STACK + name, 0, False)
         return values
 
 
 def move(semantics, state, insn):
     value = semantics.last(state, insn.operands[1:])
     if insn.operation == "mvn":
-        value = ~value & MASK if isinstance(value, int) else None
+        value = ~value & MASK if isinstance(value, int) else unknown(None, value)
     elif insn.operation == "movt":
         old = state.registers.get(insn.operands[0])
-        value = old & 0xFFFF | insn.operands[1] << 16 if isinstance(old, int) else None
+        value = old & 0xFFFF | insn.operands[1] << 16 if isinstance(old, int) else unknown(None, old)
     state.put(insn.operands[0], value)
     if insn.sets_flags:
         state.flags = Flags("result", value) if isinstance(value, int) else None
@@ -172,7 +178,7 @@ def compare(semantics, state, insn):
 def multiply(semantics, state, insn):
     operands = three_operands(insn.operands) if insn.operation == "mul" else insn.operands
     values = [semantics.value(state, operand) for operand in operands[1:]]
-    result = None
+    result = state.made_of(insn.operands)
     if all(isinstance(value, int) for value in values):
         product = values[0] * values[1]
         result = product if insn.operation == "mul" else values[2] + (product if insn.operation == "mla" else -product)
@@ -184,7 +190,7 @@ def multiply(semantics, state, insn):
 
 def divide(semantics, state, insn):
     target, a, b = sources(semantics, state, insn)
-    value = None
+    value = unknown(None, a, b)
     if isinstance(a, int) and isinstance(b, int):
         if insn.operation == "sdiv":
             a, b = signed(a), signed(b)
@@ -201,14 +207,14 @@ def extend(semantics, state, insn):
         if insn.operation.startswith("s") and value >> bits - 1:
             value |= MASK << bits & MASK
     else:
-        value = None
+        value = unknown(None, value)
     state.put(insn.operands[0], value)
 
 
 def field(semantics, state, insn):
     value = semantics.value(state, insn.operands[1])
     first, bits = insn.operands[2:4]
-    state.put(insn.operands[0], value >> first & (1 << bits) - 1 if isinstance(value, int) else None)
+    state.put(insn.operands[0], value >> first & (1 << bits) - 1 if isinstance(value, int) else unknown(None, value))
 
 
 def access(semantics, state, insn):
@@ -219,7 +225,7 @@ def access(semantics, state, insn):
     address = semantics.address(state, insn, memory)
     if kind == "str":
         for i, value in enumerate(stored):
-            state.store(add(address, 4 * i), width, value)
+            semantics.store(state, insn, add(address, 4 * i), width, value)
         return
     values = [semantics.load(state, add(address, 4 * i), width, is_signed) for i in range(len(registers))]
     for register, value in zip(registers, semantics.named(state, insn, values) if width == 4 else values):
@@ -236,7 +242,7 @@ def several(semantics, state, insn):
     first = add(start, -4 * len(names) & MASK) if downward else start
     if insn.operation in ("push", "stmia", "stmdb"):
         for i, name in enumerate(names):
-            state.store(add(first, 4 * i), 4, state.registers.get(name))
+            semantics.store(state, insn, add(first, 4 * i), 4, state.registers.get(name))
     else:
         values = [semantics.load(state, add(first, 4 * i), 4, False) for i in range(len(names))]
         for name, value in zip(names, semantics.named(state, insn, values)):
@@ -252,10 +258,6 @@ def start_loop(semantics, state, insn):
     state.put("elements a turn", 128 // int(bits) if bits else 1)
 
 
-def move_from_system(_, state, insn):
-    state.flags = None
-
-
 HANDLERS = {
     **dict.fromkeys(("mov", "movw", "movt", "mvn"), move),
     **dict.fromkeys(("add", "addw", "sub", "subw", "rsb", "neg"), arithmetic),
@@ -269,7 +271,7 @@ HANDLERS = {
     **dict.fromkeys(ACCESS, access),
     **dict.fromkeys(("push", "pop", "ldmia", "ldmdb", "stmia", "stmdb"), several),
     **dict.fromkeys(("dls", "wls", *(f"{kind}tp.{bits}" for kind in ("dls", "wls") for bits in (8, 16, 32, 64))), start_loop),
-    "msr": move_from_system,
+    "msr": lambda _, state, insn: setattr(state, "flags", None),
 }
 
 
@@ -320,6 +322,6 @@ def _loop_end(state, insn):
     if len(insn.operands) == 1:  # `le label`: for ever
         return True, None
     count = state.registers.get("lr")
-    step = state.registers.get("elements a turn", 1) if insn.operation == "letp" else 1
-    known = count > step if isinstance(count, int) else None
+    step = state.registers.get("elements a turn") if insn.operation == "letp" else 1
+    known = count > step if isinstance(count, int) and isinstance(step, int) else None
     return known, lambda after, goes: after.put("lr", subtract(count, step)) if goes else None

@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The registers, flags and stack words that the abstract execution knows at one place.
 
-Memory is kept for the stack alone, and for words that a fact says do not change. Assumed of the code: a store through an address that is not derived from the stack pointer
-does not change a known stack word. A name stands for one value at a time: whoever gives it anew calls `forget` first.
+Memory is kept for the stack alone, and for words that a fact says do not change. Assumed of the code: a store through an address that is not made of one on the stack does not
+change a stack word, and none at an unknown place of the stack changes a return address. A name stands for one value at a time: whoever gives it anew calls `forget` first.
 """
 
-from .values import MASK, Low, Negated, Pointer, join, low
+from .values import MASK, STACK, Negated, Pointer, Somewhere, is_stack, join, low, of_stack, unknown
 
-STACK = "sp"
-
-
-def is_stack(base):
-    """The stack pointer, what it was aligned to, or a loop's walk along it."""
-    return base.startswith(STACK)
+RETURN = "return "
 
 
 def aligned_stack(offset, mask):
@@ -32,17 +27,23 @@ def may_overlap(a, b):
     return a is None or b is None or a[0] < b[1] and b[0] < a[1]
 
 
-class State:
-    __slots__ = ("registers", "stack", "flags")
+def is_return(value):
+    return isinstance(value, Pointer) and value.base.startswith(RETURN)
 
-    def __init__(self, registers=None, stack=None, flags=None):
-        self.registers, self.stack, self.flags = registers or {}, stack or {}, flags
+
+class State:
+    """`escaped`: an address on the stack may stand anywhere in memory where nothing else is known. Else what is not known of a word is no such address."""
+
+    __slots__ = ("registers", "stack", "flags", "escaped")
+
+    def __init__(self, registers=None, stack=None, flags=None, escaped=False):
+        self.registers, self.stack, self.flags, self.escaped = registers or {}, stack or {}, flags, escaped
 
     def copy(self):
-        return State(dict(self.registers), dict(self.stack), self.flags)
+        return State(dict(self.registers), dict(self.stack), self.flags, self.escaped)
 
     def __eq__(self, other):
-        return self.registers == other.registers and self.stack == other.stack and self.flags == other.flags
+        return self.registers == other.registers and self.stack == other.stack and self.flags == other.flags and self.escaped == other.escaped
 
     def put(self, register, value):
         if value is None:
@@ -50,40 +51,67 @@ class State:
         else:
             self.registers[register] = value
 
+    def made_of(self, operands):
+        """What may become of them where that is not known: an address on the stack, if one of them is."""
+        return unknown(None, *(self.registers.get(operand) for operand in operands if isinstance(operand, str)))
+
     def load(self, address, size, is_signed):
         """Of the stack. A byte or a halfword of a known word is known."""
-        if not isinstance(address, Pointer):
-            return None
-        value = self.stack.get((address.base, address.offset, size))
-        if value is None and size < 4:
+        value = self.stack.get((address.base, address.offset, size)) if isinstance(address, Pointer) else None
+        if value is None and size < 4 and isinstance(address, Pointer):
             word = self.stack.get((address.base, address.offset & ~3, 4))
             if isinstance(word, int):
                 value = word >> 8 * (address.offset & 3) & ((1 << 8 * size) - 1)
+        if value is None and (self.escaped or of_stack(address) and any(of_stack(self.stack[place]) for place in self._touched(address, size))):
+            return Somewhere()
         if isinstance(value, int) and is_signed and value >> (8 * size - 1):
             value |= MASK << 8 * size & MASK
         return value
 
+    def _touched(self, address, size):
+        """The places of which an access through an address on the stack may touch a byte."""
+        if not isinstance(address, Pointer):
+            return [place for place in self.stack if is_stack(place[0])]
+        base, first = address.base, address.offset
+        accessed = extent(base, first, size)
+        return [(b, offset, width) for b, offset, width in self.stack if is_stack(b) and may_overlap(accessed, extent(b, offset, width)) and
+                (b != base or may_overlap((offset, offset + width), (first, first + size)))]
+
     def store(self, address, size, value):
-        if not isinstance(address, Pointer) or not is_stack(address.base):
+        if not of_stack(address):
+            self.escaped = self.escaped or of_stack(value)
             return
-        written = extent(address.base, address.offset, size)
-        for base, offset, width in [place for place in self.stack if is_stack(place[0])]:
-            apart = base == address.base and not may_overlap((offset, offset + width), (address.offset, address.offset + size))
-            if not apart and may_overlap(written, extent(base, offset, width)):
-                del self.stack[(base, offset, width)]
-        if value is not None:
-            narrow = value & ((1 << 8 * size) - 1) if isinstance(value, int) else value if size == 4 else None
+        is_exact = isinstance(address, Pointer)
+        for place in self._touched(address, size):
+            base, offset, width = place
+            old = self.stack[place]
+            if is_exact and base == address.base and address.offset <= offset and offset + width <= address.offset + size:
+                del self.stack[place]
+            elif of_stack(old):
+                self.stack[place] = Somewhere()
+            elif not (is_return(old) and not (is_exact and extent(address.base, 0, 1))):
+                del self.stack[place]
+        if not is_exact:
+            self.escaped = self.escaped or of_stack(value)
+        elif value is not None:
+            narrow = value & ((1 << 8 * size) - 1) if isinstance(value, int) else value if size == 4 else unknown(None, value)
             if narrow is not None:
                 self.stack[(address.base, address.offset, size)] = narrow
 
+    def end_frames(self, pointer):
+        """What lies below the stack pointer is nobody's: an interrupt may write there."""
+        self.stack = {s: v for s, v in self.stack.items() if not ((e := extent(*s)) and e[1] <= pointer.offset)}
+
     def forget(self, name):
-        """Names that begin so will be given anew."""
-        def kept(value):
-            if isinstance(value, (Pointer, Negated)) and value.base.startswith(name):
-                return None if low(value) is None else Low(low(value))
-            return value
-        self.registers = {r: k for r, v in self.registers.items() if (k := kept(v)) is not None}
-        self.stack = {s: k for s, v in self.stack.items() if not s[0].startswith(name) and (k := kept(v)) is not None}
+        """Names that begin so will be given anew, also those that may be of the stack."""
+        name = (name, STACK + name)
+        for place in [s for s in self.stack if s[0].startswith(name)]:
+            self.escaped = self.escaped or of_stack(self.stack.pop(place))
+        for known in (self.registers, self.stack):
+            for place in [p for p, v in known.items() if isinstance(v, (Pointer, Negated)) and v.base.startswith(name)]:
+                known[place] = unknown(low(known[place]), known[place])
+                if known[place] is None:
+                    del known[place]
         if self.flags is not None and any(isinstance(v, (Pointer, Negated)) and v.base.startswith(name) for v in self.flags[1:]):
             self.flags = None
 
@@ -91,9 +119,9 @@ class State:
 def join_states(a, b):
     if a is None or b is None or a is b:
         return b if a is None else a
-    registers = {r: j for r, v in a.registers.items() if r in b.registers and (j := join(v, b.registers[r])) is not None}
-    stack = {s: j for s, v in a.stack.items() if s in b.stack and (j := join(v, b.stack[s])) is not None}
-    return State(registers, stack, a.flags if a.flags == b.flags else None)
+    def joined(a, b):
+        return {place: value for place in (*a, *(p for p in b if p not in a)) if (value := join(a.get(place), b.get(place))) is not None}
+    return State(joined(a.registers, b.registers), joined(a.stack, b.stack), a.flags if a.flags == b.flags else None, a.escaped or b.escaped)
 
 
 def widen(state, back, key):
@@ -104,12 +132,11 @@ def widen(state, back, key):
     """
     clean = back.copy()
     clean.forget(key)
-    clean.forget(STACK + key)
 
     def widened(place, old, new, raw):
         if old == new:
             return old
-        stem = STACK if isinstance(old, Pointer) and is_stack(old.base) else ""
+        stem = STACK if of_stack(old) or of_stack(new) else ""
         if isinstance(old, Pointer) and old.base.startswith(stem + key):
             step = old.base[len(stem + key):].rpartition("+")[2] if "+" in old.base else ""
             if not step or isinstance(raw, Pointer) and raw.base == old.base and str(raw.offset - old.offset) == step:
@@ -121,4 +148,6 @@ def widen(state, back, key):
     registers = {r: widened(r, v, clean.registers.get(r), back.registers.get(r)) for r, v in state.registers.items()}
     stack = {s: widened(s, v, clean.stack.get(s), back.stack.get(s)) for s, v in state.stack.items()
              if not s[0].startswith((key, STACK + key))}
-    return State(registers, stack, None)
+    for new, known in ((clean.registers, registers), (clean.stack, stack)):
+        known |= {place: Somewhere() for place, value in new.items() if place not in known and of_stack(value)}
+    return State(registers, stack, None, state.escaped or clean.escaped)

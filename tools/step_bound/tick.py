@@ -11,29 +11,36 @@ import subprocess
 import tempfile
 
 from . import analysis
+from .analysis import TURN
 from .cycles import TABLES
 from .refusal import Refusal
 
-TURN = r"loop::TickLoop<.*>::turn\("
 TICK_US = 1_000
 EVERY_US = {"tick_interrupt": 1_000, "can1_reception": 47}  # the timer's period; the shortest frame's 47 bits at 1 Mbit/s
 FAULTS = ("reset", "exception")
 
 # Cycles until a handler's first instruction, at zero wait states, and as many for the return: Arm's latencies (Cortex-M0+ TRM DDI 0484C, M3 DDI
 # 0337I, M4 DDI 0439D). Eight words are stored, and loaded again, beside the vector and the code's first words.
+ABANDONED_CYCLES = 12  # of a division or a long load, which begins again after the interrupt
 ENTRY_CYCLES = {"cortex-m0plus": 15, "cortex-m3": 12, "cortex-m4": 12}
 EXCEPTION_ACCESSES = 2 * 8 + 4
 LETTER_US = 10  # of a serial port at 1 Mbaud
 
 
 def handlers(image):
-    """The functions of the vector table, faults left out; none where there is no such table, as on a Cortex-R that polls."""
+    """The functions of the vector table, faults left out; none where the processor has no such table, as a Cortex-R that polls."""
+    if not image.has_vectors:
+        return []
     found = [(address, size) for name, address, size in image.sized_objects if name.endswith("7vectorsE")]
     if len(found) != 1:
-        return []
-    names = {address: name for name, address, _ in image.functions}
-    words = {image.constant(found[0][0] + at) & ~1 for at in range(4, found[0][1], 4)}
-    return sorted(names[word] for word in words if names.get(word, FAULTS[0]) not in FAULTS)
+        raise Refusal(f"{image.path}: {len(found)} tables of interrupts called 'vectors', but one was expected")
+    names, handled = {address: name for name, address, _ in image.functions}, set()
+    for at in range(found[0][0] + 4, sum(found[0]), 4):
+        word = image.constant(at)
+        if word is None or word & ~1 not in names:
+            raise Refusal(f"{image.path}: the interrupt at {at:#x} leads to no function that is known")
+        handled.add(names[word & ~1])
+    return sorted(handled.difference(FAULTS))
 
 
 class Part:
@@ -44,7 +51,7 @@ class Part:
         self.instructions = self.bound.total
         self.cycles = self.accesses = None
         if cpu in TABLES:
-            self.cycles = found.bound(frames, cpu).total + (2 * ENTRY_CYCLES[cpu] if interrupt else 0)
+            self.cycles = found.bound(frames, cpu).total + (2 * ENTRY_CYCLES[cpu] + ABANDONED_CYCLES if interrupt else 0)
             self.accesses = found.accesses(frames) + (EXCEPTION_ACCESSES if interrupt else 0)
 
     def us(self, arguments):
@@ -64,6 +71,9 @@ def response_us(own_us, interrupts):
 
 
 def periods(names, told):
+    strangers = sorted(set(told).difference(names))
+    if strangers:
+        raise Refusal(f"--every {strangers[0]}: the image has no such interrupt; it has {', '.join(names) or 'none'}")
     every = {**EVERY_US, **told}
     unknown = [name for name in names if name not in every]
     if unknown:

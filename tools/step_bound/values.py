@@ -5,14 +5,17 @@
     Pointer(base, offset, aligned)   a named but unknown base, and a known distance; `aligned`: the base is a multiple of 4
     Negated(base, offset, aligned)   the offset less such a base, as loops that run up to an end have it
     Low(bits)                        unknown but for its two lowest bits
-    None                             unknown
+    Somewhere(bits)                  made of an address on the stack, at an unknown distance; `bits` as Low has them, or None
+    None                             unknown, and not made of an address on the stack
 
-Two pointers with one base are compared as addresses in one object, which does not wrap around the end of memory.
+Which of two pointers is the greater is known of addresses alone, which do not wrap around the end of memory: those on the stack, and a root's
+arguments that are told to be objects. What else has a name may be any number.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 MASK = 0xFFFFFFFF
+STACK = "sp"
 
 
 class Pointer(NamedTuple):
@@ -31,6 +34,31 @@ class Low(NamedTuple):
     bits: int
 
 
+class Somewhere(NamedTuple):
+    bits: Optional[int] = None
+
+
+def is_stack(base):
+    """The stack pointer, what it was aligned to, a loop's walk along it, or what may have been loaded of it."""
+    return base.startswith(STACK)
+
+
+def of_stack(value):
+    return isinstance(value, Somewhere) or isinstance(value, (Pointer, Negated)) and is_stack(value.base)
+
+
+def is_address(pointer):
+    return pointer.base == STACK or pointer.base.startswith(STACK + "@") or pointer.base.startswith("argument ") and pointer.aligned
+
+
+def unknown(bits, *made_of):
+    """What is made of these values, and known to its two lowest bits at most."""
+    bits = None if bits is None else bits & 3
+    if any(map(of_stack, made_of)):
+        return Somewhere(bits)
+    return None if bits is None else Low(bits)
+
+
 def signed(value):
     value &= MASK
     return value - (1 << 32) if value >> 31 else value
@@ -42,11 +70,7 @@ def low(value):
         return value & 3
     if isinstance(value, (Pointer, Negated)):
         return value.offset & 3 if value.aligned else None
-    return value.bits if isinstance(value, Low) else None
-
-
-def of_low(bits):
-    return None if bits is None else Low(bits & 3)
+    return value.bits if isinstance(value, (Low, Somewhere)) else None
 
 
 def add(a, b):
@@ -59,7 +83,7 @@ def add(a, b):
     if {type(a), type(b)} == {Pointer, Negated} and a.base == b.base:
         return a.offset + b.offset & MASK
     la, lb = low(a), low(b)
-    return None if la is None or lb is None else Low(la + lb & 3)
+    return unknown(None if la is None or lb is None else la + lb, a, b)
 
 
 def subtract(a, b):
@@ -70,7 +94,7 @@ def subtract(a, b):
     if isinstance(a, int) and isinstance(b, Pointer):
         return Negated(b.base, signed(a - b.offset), b.aligned)
     la, lb = low(a), low(b)
-    return None if la is None or lb is None else Low(la - lb & 3)
+    return unknown(None if la is None or lb is None else la - lb, a, b)
 
 
 LOGIC = {"and": lambda a, b: a & b, "orr": lambda a, b: a | b, "eor": lambda a, b: a ^ b, "bic": lambda a, b: a & ~b & MASK,
@@ -85,11 +109,9 @@ def logic(kind, a, b):
     la, lb = low(a), low(b)
     if kind == "and" and b == 0:
         return 0
-    if la is None:
-        return None
-    if kind == "and" and isinstance(b, int) and b <= 3:
+    if kind == "and" and isinstance(b, int) and b <= 3 and la is not None:
         return la & b
-    return None if lb is None else Low(LOGIC[kind](la, lb) & 3)
+    return unknown(None if la is None or lb is None else LOGIC[kind](la, lb), a, b)
 
 
 SHIFTS = {"lsl": lambda v, n: v << n & MASK if n < 32 else 0, "lsr": lambda v, n: v >> n if n < 32 else 0,
@@ -107,15 +129,15 @@ def shift(kind, value, amount):
         if kind == "lsl" and amount in (30, 31) and low(value) is not None:
             return low(value) << amount & MASK
         if kind == "lsl" and amount >= 2:
-            return Low(0)
-    return None
+            return unknown(0, value)
+    return unknown(None, value)
 
 
 def join(a, b):
     if a == b:
         return a
     la = low(a)
-    return Low(la) if la is not None and la == low(b) else None
+    return unknown(la if la == low(b) else None, a, b)
 
 
 class Flags(NamedTuple):
@@ -144,10 +166,15 @@ def holds(condition, flags):
     return _compared(condition, flags.a, flags.b)
 
 
+ORDERED = frozenset(("cs", "cc", "hi", "ls", "ge", "lt", "gt", "le"))
+
+
 def _compared(condition, a, b):
     if isinstance(a, int) and isinstance(b, int):
         sa, sb = signed(a), signed(b)
     elif isinstance(a, Pointer) and isinstance(b, Pointer) and a.base == b.base:
+        if condition in ORDERED and not (is_address(a) and is_address(b)):
+            return None
         a, b = sa, sb = a.offset, b.offset
     else:
         la, lb = low(a), low(b)
