@@ -52,6 +52,11 @@ std::string foreign_kind(std::string_view bytes) {
       return kind.says == nullptr ? pickle_says : kind.says;
     }
   }
+  // The version of its format, then a field that is not 0 (as a safetensors header's length is there).
+  constexpr std::size_t enough = 3;
+  if (bytes.size() >= enough && bytes[0] == '\x08' && bytes[2] != '\0') {
+    return "what may be an ONNX file: name it .onnx";
+  }
   return {};
 }
 

@@ -215,6 +215,11 @@ class HostileUse(PackageCase):
         for path in ("/dev/zero", "/", "/nowhere", self.path("none")):
             self.refused(RuntimeError, path, striker.Network, path)
 
+    def test_a_path_of_any_bytes_is_in_the_message(self):
+        for path in (b"/nowhere/caf\xe9.safetensors", "/nowhere/caf\udce9.onnx"):
+            self.refused(RuntimeError, r"^/nowhere/caf\\xe9", striker.Network, path)
+        self.refused(RuntimeError, r"^/nowhere/caf\\xe9", striker.KickEnv, config="/nowhere/caf\udce9.toml")
+
     def test_an_export_that_cannot_be_leaves_everything_as_it_was(self):
         file, network = self.path("m.safetensors"), some_network()
         for given in (None, 5, [], "x"):
