@@ -175,7 +175,7 @@ int main(int argc, char** argv) {
       throw std::runtime_error("give --episodes and --seed, or --decisions");
     }
     const Model model = load_model(options.model, options.network);
-    const TaskConfig own = task_of(model, options.config);
+    const TaskConfig own = task_of(model, options.model, options.config);
     const TaskConfig task = *robot ? with_robot(own, striker::sil::read_robot(options.robot)) : own;
     if (*condition) {
       return evaluate_conditions(options, model, task);

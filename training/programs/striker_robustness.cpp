@@ -96,7 +96,7 @@ nlohmann::ordered_json json_of(const RobotScore& score) {
 
 int play_all(const Options& options) {
   const Model model = load_model(options.model, "");
-  TaskConfig task = task_of(model, options.config);
+  TaskConfig task = task_of(model, options.model, options.config);
   task.velocities = Velocities::estimated;
   if (const std::string why = LineKick::unfit(task); !why.empty()) {
     throw std::runtime_error("the model's task cannot be played on a line: " + why);

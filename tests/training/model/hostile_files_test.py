@@ -128,6 +128,16 @@ class HostileFiles(unittest.TestCase):
         for name in ("zero.hpp", "sparse.hpp"):
             self.refused(self.path(name), "MiB", program="striker-sil")
 
+    def test_a_model_for_another_task(self):
+        network = weights()
+        narrow = {**network, "0.weight": network["0.weight"][:, :5]}
+        file = self.write("m.safetensors", safetensors(narrow))
+        for program in ("striker-export", "striker-evaluate"):
+            self.refused(file, "m.safetensors: the network has 5 inputs and 3 actions.*--config", program=program)
+        for text, said in (("[task]\nkind = \"x\"", "kick"), ("\0", "line 1")):
+            file = self.write("m.safetensors", safetensors(network, lambda header, text=text: header.update(__metadata__={"configuration": text})))
+            self.refused(file, f"m.safetensors, the configuration in it: .*{said}")
+
     def test_safetensors_that_lie(self):
         network = weights()
         whole = safetensors(network)

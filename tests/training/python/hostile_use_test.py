@@ -102,6 +102,7 @@ class HostileUse(PackageCase):
                          {"kind": 'a"\n[x]\ny="1'}, {"kind": "\0"}, {"kind": "\udc80"}, {"robot": "/dev/zero"},
                          {"config": "/dev/zero"}, {"config": "/"}, {"config": "a\nb"}):
             self.assertRaises(RuntimeError, make, **keywords)
+        self.refused(RuntimeError, r"task.actions = \[ \[ 1, 1 \], .*\.\.\.: must be a list of 2 to 16 pairs", make, actions=[[1, 1]] * 300)
         for keywords in ({"half_s": 2.7}, {"half_s": "x"}, {"slip": "x"}, {"max_s": None}, {"reward_function": 5}):
             self.refused(TypeError, f"^{next(iter(keywords))} ", match, **keywords)
         for keywords in ({"slip": numpy.nan}, {"jitter_mm": numpy.inf}, {"max_s": -1}, {"colour": None}, {"opponent": 5}):
