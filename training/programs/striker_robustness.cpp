@@ -168,9 +168,7 @@ int main(int argc, char** argv) {
   app.add_option("--episodes", options.episodes, "of each robot that differs in one thing")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "of episodes and robots")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  app.add_option("--seed", options.seed, "of episodes and robots")->capture_default_str();
   app.add_option("--robots", options.robots,
                  "random ones: mass and torque +-30 %, friction down to a fifth,\n"
                  "ball damping +-50 %, commands up to 20 ms late, noise up to 5 mm")

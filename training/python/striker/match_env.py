@@ -105,9 +105,10 @@ class MatchEnv(ParallelEnv):
         truncated = not over and 0.0 < self._max_s <= self._match.simulated_s()
         if over or truncated:
             self.agents = []
+        observations = self._observations(record)  # before anybody else has the record
         rewards = self._rewards(self._reward_function(record))
         info = {"state": record.state, "score": (record.score, record.opponent_score)}
-        return (self._observations(record), rewards, dict.fromkeys(AGENTS, over), dict.fromkeys(AGENTS, truncated),
+        return (observations, rewards, dict.fromkeys(AGENTS, over), dict.fromkeys(AGENTS, truncated),
                 {agent: dict(info) for agent in AGENTS})
 
     @staticmethod
