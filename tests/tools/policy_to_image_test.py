@@ -36,7 +36,7 @@ class PolicyToImage(unittest.TestCase):
         directory = tempfile.TemporaryDirectory()
         self.addCleanup(directory.cleanup)
         self.directory = directory.name
-        self.model, self.out = os.path.join(self.directory, "small.safetensors"), os.path.join(self.directory, "out")
+        self.model, self.out = os.path.join(self.directory, "small.safetensors"), os.path.join(self.directory, "the images")
         write_model(self.model)
 
     def run_tool(self, model, board="mps2-an386", *more):
@@ -91,6 +91,14 @@ class PolicyToImage(unittest.TestCase):
             result = self.run_tool(self.model, "mps2-an386", "-o", out)
             self.assertRegex(result.stderr, f"policy-to-image: {out}: .*; give a folder that can be written with --out\n$")
             self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+
+    def test_a_path_that_a_linker_takes_apart_is_told_before_anything_is_made(self):
+        for name in ("a,b", "a$b", "a'b", 'a"b', "a;b", "a\nb"):
+            out = os.path.join(self.directory, name)
+            result = self.run_tool(self.model, "mps2-an386", "-o", out)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("take such a path apart", result.stderr)
+            self.assertFalse(os.path.exists(out))
 
     def test_a_second_one_in_the_same_folder_waits_for_nobody(self):
         os.mkdir(self.out)
