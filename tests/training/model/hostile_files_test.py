@@ -256,18 +256,15 @@ class HostileFiles(unittest.TestCase):
             change(model)
             return model
 
-        def attribute(name, **fields):
-            return onnx.AttributeProto(name=name, **fields)
-
-        floats, whole = onnx.AttributeProto.FLOAT, onnx.AttributeProto.INT
+        attribute, floats, whole = onnx.AttributeProto, onnx.AttributeProto.FLOAT, onnx.AttributeProto.INT
         tanh = onnx.FunctionProto(name="Relu", input=["x"], output=["y"], node=[helper.make_node("Tanh", ["x"], ["y"])])
         for change, said in (
                 (lambda m: m.graph.initializer.append(numpy_helper.from_array(network["2.weight"] * 2, "2.weight")), "2.weight is there twice"),
                 (lambda m: m.graph.node.append(helper.make_node("Constant", [], ["0.bias"], value=numpy_helper.from_array(network["2.bias"]))), "0.bias is there twice"),
                 (lambda m: m.graph.node.append(helper.make_node("Relu", ["x"], ["a1"])), "a1 is there twice"),
-                (lambda m: m.graph.node[0].attribute.append(attribute("transB", type=whole, i=0)), "transB twice"),
-                (lambda m: m.graph.node[0].attribute[0].CopyFrom(attribute("transB", type=floats, f=1.0)), "transB twice, or of another type"),
-                (lambda m: m.graph.node[0].attribute.append(attribute("alpha", type=whole, i=1)), "alpha twice, or of another type"),
+                (lambda m: m.graph.node[0].attribute.append(attribute(name="transB", type=whole, i=0)), "transB twice"),
+                (lambda m: m.graph.node[0].attribute[0].CopyFrom(attribute(name="transB", type=floats, f=1.0)), "transB twice, or of another type"),
+                (lambda m: m.graph.node[0].attribute.append(attribute(name="alpha", type=whole, i=1)), "alpha twice, or of another type"),
                 (lambda m: m.functions.append(tanh), "says itself what Relu is")):
             self.refused(self.write("m.onnx", changed(change)), said)
         twice = {**network, "00.weight": network["0.weight"] * 2}
