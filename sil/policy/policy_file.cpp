@@ -48,7 +48,9 @@ LoadedPolicy load_policy(const std::filesystem::path& file) {
   const std::filesystem::path header = directory.path() / "policy.hpp";
   const auto exporter = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "striker-export";
   if (run({exporter.string(), "--output", header.string(), "--", file.string()}) != 0) {
-    throw std::runtime_error(fmt::format("{}: striker-export made no header of it", file.string()));
+    throw std::runtime_error(fmt::format(
+        "{}: striker-export made no header of it; if it takes an option of its own, make one with that and give it",
+        file.string()));
   }
   LoadedPolicy policy = read_policy_header(header);
   policy.name = file.stem().string();

@@ -18,7 +18,7 @@ void take_as_model(const training::SafeTensors& content) {
     const training::Model model = {.parameters = training::parameters_of(content.tensors, "fuzz.safetensors"),
                                    .metadata = content.metadata};
     require(training::model_identity(model.parameters).size() == 8, "a model has an identity");
-    training::require_firmware_serves(training::task_of(model, {}));
+    training::require_firmware_serves(training::task_of(model, "a model", {}));
   } catch (const std::runtime_error&) {
     return;
   }

@@ -33,7 +33,7 @@ def build(board, policy, build_dir, targets=("all",)):
     ):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
-            sys.exit(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
+            raise qemu_image.ImageError(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
 
 
 def image(build_dir, name):

@@ -3,6 +3,7 @@
 """tools/policy-to-image: from a file of weights to a proved image and its card, and what it says where there is no way.
 Usage: policy_to_image_test.py SOURCES BUILD"""
 
+import fcntl
 import json
 import os
 import random
@@ -16,10 +17,10 @@ import unittest
 SOURCES, BUILD = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
 
 
-def write_model(path):
+def write_model(path, hidden=16):
     """safetensors of a small network that nobody trained: its way is what matters here."""
     generator, header, data = random.Random(1), {}, b""
-    for name, shape in (("0", (16, 6)), ("2", (16, 16)), ("4", (3, 16))):
+    for name, shape in (("0", (hidden, 6)), ("2", (hidden, hidden)), ("4", (3, hidden))):
         for tensor, size in ((f"{name}.weight", shape), (f"{name}.bias", shape[:1])):
             count = size[0] * (size[1] if len(size) == 2 else 1)
             raw = struct.pack(f"<{count}f", *(generator.gauss(0, 0.3) for _ in range(count)))
@@ -35,7 +36,7 @@ class PolicyToImage(unittest.TestCase):
         directory = tempfile.TemporaryDirectory()
         self.addCleanup(directory.cleanup)
         self.directory = directory.name
-        self.model, self.out = os.path.join(self.directory, "small.safetensors"), os.path.join(self.directory, "out")
+        self.model, self.out = os.path.join(self.directory, "small.safetensors"), os.path.join(self.directory, "the images")
         write_model(self.model)
 
     def run_tool(self, model, board="mps2-an386", *more):
@@ -81,6 +82,41 @@ class PolicyToImage(unittest.TestCase):
             self.assertTrue(re.search(said, result.stderr), result.stderr)
             self.assertNotIn("Traceback", result.stderr)
             self.assertFalse(os.path.exists(os.path.join(self.out, "nothing.json")))
+
+    def test_a_folder_that_cannot_be_is_told(self):
+        in_the_way = os.path.join(self.directory, "file")
+        with open(in_the_way, "wb"):
+            pass
+        for out in (in_the_way, os.path.join(in_the_way, "below"), "/proc/striker"):
+            result = self.run_tool(self.model, "mps2-an386", "-o", out)
+            self.assertRegex(result.stderr, f"policy-to-image: {out}: .*; give a folder that can be written with --out\n$")
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+
+    def test_a_path_that_a_linker_takes_apart_is_told_before_anything_is_made(self):
+        for name in ("a,b", "a$b", "a'b", 'a"b', "a;b", "a\nb"):
+            out = os.path.join(self.directory, name)
+            result = self.run_tool(self.model, "mps2-an386", "-o", out)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("take such a path apart", result.stderr)
+            self.assertFalse(os.path.exists(out))
+
+    def test_a_second_one_in_the_same_folder_waits_for_nobody(self):
+        os.mkdir(self.out)
+        folder = os.open(self.out, os.O_RDONLY)
+        self.addCleanup(os.close, folder)
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        result = self.run_tool(self.model)
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+        self.assertIn("another policy-to-image is at work", result.stderr)
+
+    def test_a_policy_that_a_board_has_no_room_for(self):
+        model = os.path.join(self.directory, "wide.safetensors")
+        write_model(model, hidden=320)  # 205 KB of weights
+        result = self.run_tool(model, "microbit")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr.splitlines()[-1], "^policy-to-image: microbit: its flash is [0-9,]+ bytes too small for striker-")
+        self.assertLess(len(result.stderr), 3000)
+        self.assertFalse(os.path.exists(os.path.join(self.out, "wide.json")))
 
 
 if __name__ == "__main__":

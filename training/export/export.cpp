@@ -35,6 +35,7 @@ Agreement compare(const Parameters& parameters, const StateInputs& inputs, const
 std::vector<RawState> calibration_of(const Model& model, const TaskConfig& task,
                                      const EpisodePlayed& played) {
   require_firmware_serves(task);
+  require_header_compiles(model.parameters.shape());
   return calibration_play(model.parameters, task, 0, calibration_plays, played);
 }
 

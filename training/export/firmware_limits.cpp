@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "firmware/policy/policy.hpp"
 
@@ -30,6 +31,20 @@ void require_firmware_serves(const TaskConfig& task) {
   }
   if (const std::string why = unreachable_action(task); !why.empty()) {
     throw std::runtime_error(why);
+  }
+}
+
+void require_header_compiles(const Shape& shape) {
+  const std::vector<int> widths = shape.widths();
+  std::size_t weights = 0;
+  for (std::size_t layer = 1; layer < widths.size(); ++layer) {
+    weights += static_cast<std::size_t>(widths[layer - 1]) * static_cast<std::size_t>(widths[layer]);
+  }
+  if (weights > most_weights) {
+    throw std::runtime_error(fmt::format(
+        "the network {} has {} weights, and the firmware's compilers take {} at most; train with a "
+        "smaller network.hidden",
+        fmt::join(widths, "-"), weights, most_weights));
   }
 }
 

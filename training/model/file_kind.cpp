@@ -18,9 +18,9 @@ struct Kind {
 constexpr std::array kinds = {
     Kind{
         "PK\x03\x04"sv,
-        "a zip archive, as torch.save writes it (.pth, .pt); convert it in Python: safetensors.torch.save_file("
-        "torch.load(FILE, weights_only=True), \"model.safetensors\"), where that is a state_dict in float32; a "
-        "Stable-Baselines3 .zip holds such a policy.pth"},
+        "a zip archive, as torch.save writes it (.pth, .pt); convert it in Python: striker.export(torch.load(FILE, "
+        "weights_only=True), \"model.safetensors\"), where that is a state_dict; a Stable-Baselines3 .zip holds such a "
+        "policy.pth"},
     Kind{"\x80\x02"sv, nullptr},
     Kind{"\x80\x03"sv, nullptr},
     Kind{"\x80\x04"sv, nullptr},
@@ -41,8 +41,7 @@ constexpr std::array kinds = {
 
 constexpr const char* pickle_says =
     "a Python pickle, as torch.save wrote it before 1.6 (.pth, .pt); convert it in Python: "
-    "safetensors.torch.save_file(torch.load(FILE, weights_only=True), \"model.safetensors\"), where that is a "
-    "state_dict in float32";
+    "striker.export(torch.load(FILE, weights_only=True), \"model.safetensors\"), where that is a state_dict";
 
 }  // namespace
 
@@ -51,6 +50,11 @@ std::string foreign_kind(std::string_view bytes) {
     if (bytes.starts_with(kind.begins)) {
       return kind.says == nullptr ? pickle_says : kind.says;
     }
+  }
+  // The version of its format, then a field that is not 0 (as a safetensors header's length is there).
+  constexpr std::size_t enough = 3;
+  if (bytes.size() >= enough && bytes[0] == '\x08' && bytes[2] != '\0') {
+    return "what may be an ONNX file: name it .onnx";
   }
   return {};
 }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 #include "firmware/host/files.hpp"
@@ -108,7 +110,9 @@ Parameters parameters_of(const std::vector<Tensor>& tensors, const std::string& 
 }
 
 Model load_model(const std::filesystem::path& file, const std::string& network) {
-  const bool is_onnx = file.extension() == ".onnx";
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  const bool is_onnx = ending == ".onnx";
   if (is_onnx && !network.empty()) {
     throw std::runtime_error(
         fmt::format("{}: an ONNX file holds one network; leave --network {} out", file.string(), network));

@@ -50,7 +50,13 @@ Networks networks_of(const std::vector<Tensor>& tensors, const std::string& file
     LayerName name;
     if (read_name(tensor.name, name)) {
       LayerTensors& layer = networks[name.network][name.number];
-      (name.weight ? layer.weight : layer.bias) = &tensor;
+      const Tensor*& place = name.weight ? layer.weight : layer.bias;
+      if (place != nullptr) {
+        throw std::runtime_error(fmt::format("{}: tensors {} and {} are both {} of layer {}: leave one out",
+                                             file, place->name, tensor.name, name.weight ? "weight" : "bias",
+                                             name.number));
+      }
+      place = &tensor;
     } else if (only_layers) {
       throw std::runtime_error(fmt::format(
           "{}: tensor {} is no layer of a network; the names are like 0.weight and 0.bias; if the "

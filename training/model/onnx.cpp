@@ -8,9 +8,11 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "training/model/onnx_size.hpp"
 #include "training/model/shown.hpp"
 
 namespace striker::training {
@@ -23,17 +25,24 @@ constexpr const char* supported =
 // What the chain came to; `product`: a MatMul whose Add is to follow.
 enum class Step { nothing, product, layer, relu };
 
+bool is_onnx_domain(const std::string& domain) {
+  return domain.empty() || domain == "ai.onnx";
+}
+
 // Walks the chain from the graph's input to its output.
 class Chain {
  public:
   Chain(const onnx::GraphProto& graph, std::string file) : graph_(graph), file_(std::move(file)) {
+    if (graph.node_size() > most_nodes) {
+      refuse(fmt::format("it has {} nodes; at most {} are read", graph.node_size(), most_nodes));
+    }
     for (const onnx::TensorProto& tensor : graph.initializer()) {
+      note_name(tensor.name());
       constants_[tensor.name()] = &tensor;
     }
     for (const onnx::NodeProto& node : graph.node()) {
-      if (node.op_type() == "Constant") {
-        add_constant(node);
-      }
+      std::ranges::for_each(node.output(), [this](const std::string& name) { note_name(name); });
+      add_constant(node);
     }
   }
 
@@ -63,11 +72,25 @@ class Chain {
                        shown(node.op_type(), longest), why));
   }
 
+  // A value is made once, so that there is one that a name means.
+  void note_name(const std::string& name) {
+    if (!name.empty() && !names_.insert(name).second) {
+      refuse(fmt::format("{} is there twice, so that it is not clear which one is meant", name));
+    }
+  }
+
+  // A constant's name, or another one for it: PyTorch writes equal biases once, and an Identity for each further one.
   void add_constant(const onnx::NodeProto& node) {
-    for (const onnx::AttributeProto& attribute : node.attribute()) {
-      if (attribute.name() == "value" && attribute.has_t() && node.output_size() == 1) {
-        constants_[node.output(0)] = &attribute.t();
+    if (node.output_size() != 1) {
+      return;
+    }
+    if (node.op_type() == "Constant") {
+      const auto* const value = attribute_of(node, "value", onnx::AttributeProto::TENSOR);
+      if (value != nullptr) {
+        constants_[node.output(0)] = &value->t();
       }
+    } else if (node.op_type() == "Identity" && node.input_size() == 1 && constants_.contains(node.input(0))) {
+      constants_[node.output(0)] = constants_.at(node.input(0));
     }
   }
 
@@ -111,7 +134,7 @@ class Chain {
 
   void take(const onnx::NodeProto& node) {
     const std::string& kind = node.op_type();
-    if (!node.domain().empty() && node.domain() != "ai.onnx") {
+    if (!is_onnx_domain(node.domain())) {
       refuse(node, fmt::format("is of {}, not ONNX's own", node.domain()));
     }
     if (last_ == Step::product && kind != "Add") {
@@ -225,22 +248,40 @@ class Chain {
     return tensor;
   }
 
-  [[nodiscard]] static std::int64_t number_of(const onnx::NodeProto& node, const std::string& name,
-                                              std::int64_t otherwise) {
-    const auto found = std::ranges::find(node.attribute(), name, &onnx::AttributeProto::name);
-    return found == node.attribute().end() ? otherwise : found->i();
+  // Null if the node has none of that name. One of another type would be read as 0.
+  [[nodiscard]] const onnx::AttributeProto* attribute_of(const onnx::NodeProto& node, const std::string& name,
+                                                         onnx::AttributeProto::AttributeType type) const {
+    const onnx::AttributeProto* found = nullptr;
+    for (const onnx::AttributeProto& attribute : node.attribute()) {
+      if (attribute.name() != name) {
+        continue;
+      }
+      if (found != nullptr || attribute.type() != type) {
+        refuse(node, fmt::format("has {} twice, or of another type than ONNX's", name));
+      }
+      found = &attribute;
+    }
+    return found;
   }
 
-  [[nodiscard]] static float factor_of(const onnx::NodeProto& node, const std::string& name) {
-    const auto found = std::ranges::find(node.attribute(), name, &onnx::AttributeProto::name);
-    return found == node.attribute().end() ? 1.0F : found->f();
+  [[nodiscard]] std::int64_t number_of(const onnx::NodeProto& node, const std::string& name,
+                                       std::int64_t otherwise) const {
+    const auto* const found = attribute_of(node, name, onnx::AttributeProto::INT);
+    return found == nullptr ? otherwise : found->i();
   }
 
-  static constexpr int most_layers = 8;               // so many are copied, before model.cpp counts them
+  [[nodiscard]] float factor_of(const onnx::NodeProto& node, const std::string& name) const {
+    const auto* const found = attribute_of(node, name, onnx::AttributeProto::FLOAT);
+    return found == nullptr ? 1.0F : found->f();
+  }
+
+  static constexpr int most_nodes = 1000;  // a kick network has a dozen; each is looked for among all
+  static constexpr int most_layers = 8;    // so many are copied, before model.cpp counts them
   static constexpr std::size_t most = 1'000'000'000;  // values: more than any file that is read
 
   const onnx::GraphProto& graph_;
   std::string file_;
+  std::set<std::string> names_;  // of all values
   std::map<std::string, const onnx::TensorProto*> constants_;
   std::string value_;
   std::vector<Tensor> tensors_;
@@ -250,9 +291,21 @@ class Chain {
 }  // namespace
 
 SafeTensors read_onnx(std::string_view bytes, const std::string& file) {
+  constexpr std::size_t most_beside_numbers = std::size_t{1} << 20U;
+  if (const std::size_t rest = onnx_bytes_beside_numbers(bytes); rest > most_beside_numbers) {
+    throw std::runtime_error(
+        fmt::format("{}: it has {} bytes of names, nodes and notes, or is damaged; at most {} are read; {}",
+                    file, rest, most_beside_numbers, supported));
+  }
   onnx::ModelProto model;
   if (!model.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())) || !model.has_graph()) {
     throw std::runtime_error(fmt::format("{}: it is no ONNX file, or a damaged one; {}", file, supported));
+  }
+  for (const onnx::FunctionProto& function : model.functions()) {
+    if (is_onnx_domain(function.domain())) {
+      throw std::runtime_error(
+          fmt::format("{}: it says itself what {} is; {}", file, shown(function.name()), supported));
+    }
   }
   SafeTensors content{.tensors = Chain(model.graph(), file).layers(), .metadata = {}};
   for (const onnx::StringStringEntryProto& note : model.metadata_props()) {

@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   app.add_option("--episodes", options.run.episodes, "how many, 1 to 1000000")
       ->required()
       ->check(CLI::Range(1, 1'000'000));
-  app.add_option("--seed", options.run.seed, "of the episodes")->required()->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", options.run.seed, "of the episodes")->required();
   striker::host::reads_file(
       app.add_option("--robot", options.robot,
                      "whose ceiling, a description as in firmware/robots; left out: the forward's"));

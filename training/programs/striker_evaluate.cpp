@@ -140,7 +140,7 @@ int main(int argc, char** argv) {
   striker::host::reads_file(app.add_option("--model", options.model, "safetensors file"))->required();
   auto* episodes = app.add_option("--episodes", options.episodes, "how many, 1 to 10000000")
                        ->check(CLI::Range(1, 10'000'000));
-  auto* seed = app.add_option("--seed", options.seed, "of the episodes")->check(CLI::NonNegativeNumber);
+  auto* seed = app.add_option("--seed", options.seed, "of the episodes");
   app.add_option("--pose", options.pose, "the robot's start: origin or anywhere on the field")
       ->check(CLI::IsMember({"origin", "anywhere"}))
       ->capture_default_str();
@@ -175,7 +175,7 @@ int main(int argc, char** argv) {
       throw std::runtime_error("give --episodes and --seed, or --decisions");
     }
     const Model model = load_model(options.model, options.network);
-    const TaskConfig own = task_of(model, options.config);
+    const TaskConfig own = task_of(model, options.model, options.config);
     const TaskConfig task = *robot ? with_robot(own, striker::sil::read_robot(options.robot)) : own;
     if (*condition) {
       return evaluate_conditions(options, model, task);

@@ -51,7 +51,7 @@ int export_to(const Options& options) {
   const std::string name =
       policy_name_of(options.name.empty() ? options.header : std::filesystem::path(options.name));
   const Model model = load_model(options.model, options.network);
-  const Export exported = export_with_progress(options, model, task_of(model, options.config));
+  const Export exported = export_with_progress(options, model, task_of(model, options.model, options.config));
   host::write_file(options.header, header_of(exported, model, name));
   if (!options.report.empty()) {
     host::write_file(options.report, report_of(exported, model));

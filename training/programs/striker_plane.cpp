@@ -131,7 +131,7 @@ nlohmann::ordered_json json_of(const Plane& plane, const std::vector<PlaneCell>&
 int fill_plane(const Options& options) {
   const Plane plane = plane_of(options);
   const Model model = load_model(options.model, options.network);
-  TaskConfig task = task_of(model, options.config);
+  TaskConfig task = task_of(model, options.model, options.config);
   task.pose = sil::PoseMode::origin;  // the relative state is the same anywhere
   task.physics = Physics::planar;
   if (const std::string why = unfit_for_plane(task); !why.empty()) {

@@ -96,7 +96,7 @@ nlohmann::ordered_json json_of(const RobotScore& score) {
 
 int play_all(const Options& options) {
   const Model model = load_model(options.model, "");
-  TaskConfig task = task_of(model, options.config);
+  TaskConfig task = task_of(model, options.model, options.config);
   task.velocities = Velocities::estimated;
   if (const std::string why = LineKick::unfit(task); !why.empty()) {
     throw std::runtime_error("the model's task cannot be played on a line: " + why);
@@ -168,9 +168,7 @@ int main(int argc, char** argv) {
   app.add_option("--episodes", options.episodes, "of each robot that differs in one thing")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "of episodes and robots")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  app.add_option("--seed", options.seed, "of episodes and robots")->capture_default_str();
   app.add_option("--robots", options.robots,
                  "random ones: mass and torque +-30 %, friction down to a fifth,\n"
                  "ball damping +-50 %, commands up to 20 ms late, noise up to 5 mm")

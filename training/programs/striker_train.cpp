@@ -137,8 +137,7 @@ int main(int argc, char** argv) {
       app.add_option("--robot", options.robot,
                      "the robot that it is for, a description as in firmware/robots: instead of [robot]"));
   app.add_option("--seed", options.seed, "of the weights, the episodes, the exploration and the sampling")
-      ->required()
-      ->check(CLI::NonNegativeNumber);
+      ->required();
   app.add_option("--out", options.out, "directory for the results; made if missing")->required();
   auto* resume = app.add_flag(
       "--resume", options.resume,

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """pip install ./training/python --no-build-isolation: CMake builds the native module, for the Python that pip is of.
 
-STRIKER_BUILD names a build folder whose module is taken as it is, in place of one of its own beside the sources
-(build-python)."""
+STRIKER_BUILD names a build folder, from the root, whose module is taken as it is, in place of one of its own beside the
+sources (build-python)."""
 
-import glob
 import os
 import shutil
 import subprocess
 import sys
+import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -27,7 +27,10 @@ class CMakeBuild(build_ext):
             subprocess.run(["cmake", "--build", build, "--target", "striker_python"], check=True)
         to = os.path.join(self.build_lib, "striker")
         os.makedirs(to, exist_ok=True)
-        (native,) = glob.glob(os.path.join(build, "python", "striker", "_native*.so"))
+        native = os.path.join(build, "python", "striker", "_native" + sysconfig.get_config_var("EXT_SUFFIX"))
+        if not os.path.isfile(native):
+            sys.exit(f"setup.py: no {native}: STRIKER_BUILD is the whole path of a folder where striker_python was built, for this "
+                     "Python; or leave it out")
         shutil.copy(native, to)
 
 

@@ -8,20 +8,21 @@
 
 namespace striker::training {
 
-TaskConfig task_of(const Model& model, const std::filesystem::path& config_file) {
+TaskConfig task_of(const Model& model, const std::filesystem::path& file,
+                   const std::filesystem::path& config_file) {
   const auto noted = model.metadata.find("configuration");
   const bool has_note = noted != model.metadata.end();
   const Config config = !config_file.empty() ? load_config(config_file)
-                        : has_note           ? parse_config(noted->second, "the model's configuration")
-                                             : parse_config("", "the default configuration");
+                        : has_note ? parse_config(noted->second, file.string() + ", the configuration in it")
+                                   : parse_config("", "the default configuration");
   TaskConfig task = config.environments.front();
   const Shape& shape = model.parameters.shape();
   if (shape.inputs != static_cast<int>(task.inputs.size()) ||
       shape.actions != static_cast<int>(task.actions.size())) {
     throw std::runtime_error(fmt::format(
-        "the network has {} inputs and {} actions, but its task {} and {}; give the configuration whose "
+        "{}: the network has {} inputs and {} actions, but its task {} and {}; give the configuration whose "
         "task.inputs and task.actions it was trained with as --config",
-        shape.inputs, shape.actions, task.inputs.size(), task.actions.size()));
+        file.string(), shape.inputs, shape.actions, task.inputs.size(), task.actions.size()));
   }
   return task;
 }
@@ -53,7 +54,7 @@ void require_fits(const Model& model, const Config& config, const std::string& f
   if (noted == model.metadata.end()) {
     return;
   }
-  const TaskConfig own = parse_config(noted->second, "the model's configuration").environments.front();
+  const TaskConfig own = parse_config(noted->second, file + ", the configuration in it").environments.front();
   for (const auto& [key, equal] : {std::pair("task.inputs", own.inputs == task.inputs),
                                    std::pair("task.actions", own.actions == task.actions),
                                    std::pair("task.mirrored", own.one_sided == task.one_sided)}) {

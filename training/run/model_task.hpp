@@ -12,9 +12,10 @@
 namespace striker::training {
 
 // From the configuration that the model holds. `config_file` tells it of a model that holds none; without
-// either it is the official task with the RCS state. Throws std::runtime_error if inputs or actions do not
-// fit the network.
-[[nodiscard]] TaskConfig task_of(const Model& model, const std::filesystem::path& config_file);
+// either it is the official task with the RCS state. Throws std::runtime_error, which names the model's `file`, if inputs or
+// actions do not fit the network.
+[[nodiscard]] TaskConfig task_of(const Model& model, const std::filesystem::path& file,
+                                 const std::filesystem::path& config_file);
 
 // The same task for another robot. Throws std::runtime_error if its wheels do not reach what an action sets them to.
 [[nodiscard]] TaskConfig with_robot(TaskConfig task, const core::RobotDescription& robot);

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "training/model/shown.hpp"
+
 namespace striker::training {
 
 // What a text may be, and what each means.
@@ -86,13 +88,26 @@ class TomlReader {
   }
 
   [[noreturn]] void fail(const std::string& key, const std::string& rule) const {
-    std::ostringstream value;
-    value << root_.at_path(key);
-    throw std::runtime_error(fmt::format("{}: {} = {}: {}", file_, key, value.str(), rule));
+    throw std::runtime_error(fmt::format("{}: {} = {}: {}", file_, key, text_of(node(key)), rule));
   }
 
  private:
   using Node = toml::node_view<const toml::node>;
+
+  // On one line, which a long list is not written on, and not longer than one reads.
+  static std::string text_of(const Node& from) {
+    std::ostringstream lines;
+    lines << from;
+    std::string text;
+    for (const char letter : lines.str()) {
+      const bool is_space = letter == ' ' || letter == '\n';
+      if (!is_space || text.empty() || text.back() != ' ') {
+        text += is_space ? ' ' : letter;
+      }
+    }
+    constexpr std::size_t longest = 200;
+    return shown(text, longest);
+  }
 
   int whole(const std::string& key, const Node& from, int least, int greatest) const {
     const auto read = from.value_exact<std::int64_t>();

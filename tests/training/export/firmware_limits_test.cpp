@@ -48,5 +48,21 @@ TEST(FirmwareLimits, WhatTheControllerDoesNotComputeIsNamed) {
   EXPECT_NE(complaint_about({.inputs = StateInputs(33)}).find("33 inputs"), std::string::npos);
 }
 
+TEST(FirmwareLimits, ANetworkThatNoCompilerTakesIsNamed) {
+  EXPECT_NO_THROW(require_header_compiles({}));
+  EXPECT_NO_THROW(require_header_compiles({.hidden = {256, 256, 256}}));
+  EXPECT_NO_THROW(require_header_compiles({.inputs = 1, .hidden = {80'000}, .actions = 1}));
+  try {
+    require_header_compiles({.hidden = {700, 700}});
+    FAIL() << "it was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(),
+                 "the network 6-700-700-3 has 496300 weights, and the firmware's compilers take 160000 at "
+                 "most; train with a smaller network.hidden");
+  }
+  EXPECT_THROW(require_header_compiles({.inputs = 1, .hidden = {80'001}, .actions = 1}), std::runtime_error);
+  EXPECT_THROW(require_header_compiles({.hidden = {100'000, 100'000, 100'000}}), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace striker::training

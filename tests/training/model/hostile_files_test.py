@@ -128,6 +128,16 @@ class HostileFiles(unittest.TestCase):
         for name in ("zero.hpp", "sparse.hpp"):
             self.refused(self.path(name), "MiB", program="striker-sil")
 
+    def test_a_model_for_another_task(self):
+        network = weights()
+        narrow = {**network, "0.weight": network["0.weight"][:, :5]}
+        file = self.write("m.safetensors", safetensors(narrow))
+        for program in ("striker-export", "striker-evaluate"):
+            self.refused(file, "m.safetensors: the network has 5 inputs and 3 actions.*--config", program=program)
+        for text, said in (("[task]\nkind = \"x\"", "kick"), ("\0", "line 1")):
+            file = self.write("m.safetensors", safetensors(network, lambda header, text=text: header.update(__metadata__={"configuration": text})))
+            self.refused(file, f"m.safetensors, the configuration in it: .*{said}")
+
     def test_safetensors_that_lie(self):
         network = weights()
         whole = safetensors(network)
@@ -211,6 +221,69 @@ class HostileFiles(unittest.TestCase):
         foreign = onnx_model(gemms(network), network)
         foreign.graph.node[0].domain = "com.example"
         self.refused(self.write("m.onnx", foreign), "com.example")
+
+    def test_a_small_onnx_file_that_would_be_a_big_one_in_memory(self):
+        """Fields of two bytes each, of what takes some hundred as an object."""
+        size = 40 << 20
+        graph = onnx_model([], {}).graph.SerializeToString()
+
+        def field(number, content):
+            length, digits = len(content), b""
+            while length > 127:
+                digits, length = digits + bytes([length & 127 | 128]), length >> 7
+            return bytes([number << 3 | 2]) + digits + bytes([length]) + content
+
+        dims = b"\x01" * size  # a byte in the file, and eight in memory
+        for content in (field(7, graph + b"\x0a\x00" * (size // 2)), field(7, graph + b"\x2a\x00" * (size // 2)),
+                        field(7, graph + field(1, b"\x0a\x00" * (size // 2))), field(7, graph) + b"\x72\x00" * (size // 2),
+                        field(7, graph + field(5, field(1, dims))), field(7, graph) + b"\x08\x01" * (size // 2)):
+            self.refused(self.write("m.onnx", content), "bytes of names, nodes and notes.*Gemm")
+        many = [helper.make_node("Identity", [f"{number}"], [f"{number + 1}"]) for number in range(20_000)]
+        self.refused(self.write("m.onnx", onnx_model(many, {})), "20000 nodes; at most")
+        big = {"0.weight": numpy.zeros((3000, 6), numpy.float32), "0.bias": numpy.zeros(3000, numpy.float32),
+               "2.weight": numpy.zeros((3, 3000), numpy.float32), "2.bias": numpy.zeros(3, numpy.float32)}
+        constants = [helper.make_node("Constant", [], [name], value=numpy_helper.from_array(array)) for name, array in big.items()]
+        for nodes, kept in ((gemms(big, 2), big), (constants + gemms(big, 2), {})):  # numbers may take what they take
+            played = self.run_tool("striker-evaluate", "--model", self.write("m.onnx", onnx_model(nodes, kept)), "--episodes", "1",
+                                   "--seed", "1")
+            self.assertEqual(played.returncode, 0, played.stderr)
+
+    def test_an_onnx_file_that_can_be_read_in_two_ways(self):
+        network = weights()
+
+        def changed(change):
+            model = onnx_model(gemms(network), network)
+            change(model)
+            return model
+
+        attribute, floats, whole = onnx.AttributeProto, onnx.AttributeProto.FLOAT, onnx.AttributeProto.INT
+        tanh = onnx.FunctionProto(name="Relu", input=["x"], output=["y"], node=[helper.make_node("Tanh", ["x"], ["y"])])
+        for change, said in (
+                (lambda m: m.graph.initializer.append(numpy_helper.from_array(network["2.weight"] * 2, "2.weight")), "2.weight is there twice"),
+                (lambda m: m.graph.node.append(helper.make_node("Constant", [], ["0.bias"], value=numpy_helper.from_array(network["2.bias"]))), "0.bias is there twice"),
+                (lambda m: m.graph.node.append(helper.make_node("Relu", ["x"], ["a1"])), "a1 is there twice"),
+                (lambda m: m.graph.node[0].attribute.append(attribute(name="transB", type=whole, i=0)), "transB twice"),
+                (lambda m: m.graph.node[0].attribute[0].CopyFrom(attribute(name="transB", type=floats, f=1.0)), "transB twice, or of another type"),
+                (lambda m: m.graph.node[0].attribute.append(attribute(name="alpha", type=whole, i=1)), "alpha twice, or of another type"),
+                (lambda m: m.functions.append(tanh), "says itself what Relu is")):
+            self.refused(self.write("m.onnx", changed(change)), said)
+        twice = {**network, "00.weight": network["0.weight"] * 2}
+        self.refused(self.write("m.safetensors", safetensors(twice)), "0.weight and 00.weight are both weight of layer 0")
+
+    def test_bytes_that_are_no_text_are_shown_as_text(self):
+        whole = onnx_model([helper.make_node("Tanh", ["state"], ["q"], name="a name"), ], {}).SerializeToString()
+        for bad in (b"\xff\xfe", b"\xc2\x9b", b"\xed\xa0\x80", b"\xf4\x90\x80\x80", b"\xc0\x80", b"a\xe9"):
+            name = (bad + b"......")[:6]
+            self.refused(self.write("m.onnx", whole.replace(b"a name", name)), rf"node [a?]+\.+ \(Tanh\)")
+        self.refused(self.write("m.onnx", whole.replace(b"a name", "h\u00e9\u20ac".encode())), "node h\u00e9\u20ac ")
+
+    def test_an_onnx_file_is_known_by_its_name_however_it_is_written(self):
+        content = onnx_model(gemms(weights()), weights())
+        for name in ("m.ONNX", "m.Onnx"):
+            played = self.run_tool("striker-evaluate", "--model", self.write(name, content), "--episodes", "1", "--seed", "1")
+            self.assertEqual(played.returncode, 0, played.stderr)
+        for name in ("m", "m.safetensors"):
+            self.refused(self.write(name, content), "may be an ONNX file: name it .onnx")
 
     def test_one_big_weight_that_many_layers_share(self):
         side = 2500

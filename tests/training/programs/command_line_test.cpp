@@ -177,7 +177,7 @@ TEST_F(CommandLine, TrainRefusesBadInput) {
   expect_refusal(train_with(config, config), config);
   expect_refusal(fmt::format("{} --config {} --out {}", STRIKER_TRAIN, config, path("out")), "--seed");
   expect_refusal(fmt::format("{} --seed -1 --config {} --out {}", STRIKER_TRAIN, config, path("out")),
-                 "--seed");
+                 "--seed: '-1' is no whole number from 0 to 18446744073709551615");
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
@@ -196,6 +196,7 @@ TEST_F(CommandLine, EvaluateRefusesBadInput) {
   expect_refusal(evaluate_with(path("none"), "--episodes 2 --seed 1"), "none");
   expect_refusal(evaluate_with(model, "--episodes 0 --seed 1"), "--episodes");
   expect_refusal(evaluate_with(model, "--episodes 2"), "--seed");
+  expect_refusal(evaluate_with(model, "--episodes 2 --seed -1"), "'-1' is no whole number from 0");
   expect_refusal(evaluate_with(model, ""), "--decisions");
   expect_refusal(evaluate_with(model, "--episodes 2 --seed 1 --pose here"), "--pose");
   expect_refusal(evaluate_with(model, "--decisions " + path("none.csv")), "none.csv");
@@ -227,7 +228,7 @@ TEST_F(CommandLine, CeilingRefusesBadInput) {
   expect_refusal(with("--episodes 2"), "--seed");
   expect_refusal(with("--seed 1"), "--episodes");
   expect_refusal(with("--seed 1 --episodes 0"), "--episodes");
-  expect_refusal(with("--seed -1 --episodes 2"), "--seed");
+  expect_refusal(with("--seed -1 --episodes 2"), "'-1' is no whole number from 0");
   expect_refusal(with("--seed 1 --episodes 2 --pose here"), "--pose");
   expect_refusal(with("--seed 1 --episodes 2 --replay bus"), "--replay");
   expect_refusal(with("--seed 1 --episodes 2 --jobs 0"), "--jobs");

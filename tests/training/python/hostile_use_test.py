@@ -7,6 +7,7 @@ import copy
 import multiprocessing
 import os
 import pickle
+import resource
 import threading
 import unittest
 
@@ -23,6 +24,16 @@ def steps_of_a_new_one(seed):
     env = striker.KickEnv()
     env.reset(seed=seed)
     return [env.step(1)[0].tolist() for _ in range(10)]
+
+
+def make_with_little_room():
+    """Ends with another status than 0 unless it is told so."""
+    resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+    try:
+        striker.VectorKickEnv(300, threads=256)
+    except RuntimeError as error:
+        os._exit(0 if str(error).startswith("threads 256: the system gives ") else 2)
+    os._exit(1)
 
 
 class HostileUse(PackageCase):
@@ -71,7 +82,8 @@ class HostileUse(PackageCase):
             for options in (5, [1], {"epsiode": 1}, "episode"):
                 self.refused(ValueError, "^options .*'episode'", env.reset, options=options)
             env.reset(seed=1, options={})
-        self.refused(ValueError, "one for each world", striker.VectorKickEnv(3).reset, seed=[1, 2])
+        for seeds in ([1, 2], [1], []):
+            self.refused(ValueError, "one for each of 3 worlds", striker.VectorKickEnv(3).reset, seed=seeds)
         last = striker.KickEnv()
         last.reset(seed=1, options={"episode": 2**64 - 2})
         self.refused(ValueError, "episode", last.reset)
@@ -90,6 +102,7 @@ class HostileUse(PackageCase):
                          {"kind": 'a"\n[x]\ny="1'}, {"kind": "\0"}, {"kind": "\udc80"}, {"robot": "/dev/zero"},
                          {"config": "/dev/zero"}, {"config": "/"}, {"config": "a\nb"}):
             self.assertRaises(RuntimeError, make, **keywords)
+        self.refused(RuntimeError, r"task.actions = \[ \[ 1, 1 \], .*\.\.\.: must be a list of 2 to 16 pairs", make, actions=[[1, 1]] * 300)
         for keywords in ({"half_s": 2.7}, {"half_s": "x"}, {"slip": "x"}, {"max_s": None}, {"reward_function": 5}):
             self.refused(TypeError, f"^{next(iter(keywords))} ", match, **keywords)
         for keywords in ({"slip": numpy.nan}, {"jitter_mm": numpy.inf}, {"max_s": -1}, {"colour": None}, {"opponent": 5}):
@@ -118,16 +131,61 @@ class HostileUse(PackageCase):
         env.step(0)
         for actions in ([200], [0] * 41):
             state = env.__getstate__()
-            state["kick"] = (1, 1, actions)
+            state["_kick"] = (1, 1, actions)
             self.refused(ValueError, "none of an episode", striker.KickEnv.__new__(striker.KickEnv).__setstate__, state)
         many = striker.VectorKickEnv(2)
         many.reset(seed=1)
         for players in ([(1, 1, [0])], [(1, 1, [0])] * 3, [(1, 1, [77])] * 2):
             state = many.__getstate__()
-            state["worlds"] = (2, players)
+            state["_worlds"] = (2, players)
             self.refused(ValueError, "copy", striker.VectorKickEnv.__new__(striker.VectorKickEnv).__setstate__, state)
         for copied in (pickle.dumps, copy.deepcopy):
             self.refused(TypeError, "make one in each process", copied, striker.MatchEnv())
+
+    def test_a_number_that_plays_itself(self):
+        env = striker.KickEnv()
+
+        class Action:
+            def __index__(self):
+                for _ in range(40):
+                    if env.step(0)[3]:
+                        break
+                return 0
+
+        env.reset(seed=1)
+        self.refused(RuntimeError, r"call reset\(\)", env.step, Action())
+        self.assertEqual(copy.deepcopy(env).reset()[0].tolist(), env.reset()[0].tolist())
+
+    def test_rewards_that_are_none(self):
+        def forgotten(record):
+            del record
+
+        for error, function in ((TypeError, forgotten), (TypeError, lambda record: "1"), (ValueError, lambda record: numpy.nan)):
+            for env in (striker.KickEnv(reward_function=function), striker.MatchEnv(reward_function=function)):
+                env.reset(seed=1)
+                action = 0 if isinstance(env, striker.KickEnv) else dict.fromkeys(env.agents, (0.0, 0.0))
+                self.refused(error, "^reward_function returned", env.step, action)
+        for error, function in ((TypeError, forgotten), (TypeError, lambda record: 1.0), (TypeError, lambda record: record.reward[:2]),
+                                (TypeError, lambda record: record.reward * 1j), (ValueError, lambda record: record.reward * numpy.nan)):
+            many = striker.VectorKickEnv(3, reward_function=function)
+            many.reset(seed=1)
+            self.refused(error, "^reward_function returned", many.step, [0, 0, 0])
+        match = striker.MatchEnv(reward_function=lambda record: {"goalkeeper": 1.0})
+        match.reset(seed=1)
+        self.refused(KeyError, "none for defender_1", match.step, dict.fromkeys(match.agents, (0.0, 0.0)))
+
+    def test_a_match_is_over_whatever_its_last_reward_was(self):
+        env = striker.MatchEnv(max_s=0.05, reward_function=lambda record: None)
+        env.reset(seed=1)
+        actions = dict.fromkeys(env.agents, (0.0, 0.0))
+        self.refused(TypeError, "^reward_function", env.step, actions)
+        self.refused(RuntimeError, r"call reset\(\)", env.step, actions)
+
+    def test_more_threads_than_the_system_gives(self):
+        process = multiprocessing.get_context("fork").Process(target=make_with_little_room)
+        process.start()
+        process.join()
+        self.assertEqual(process.exitcode, 0)
 
     def test_what_was_closed_or_never_begun(self):
         env = striker.KickEnv(render_mode="rgb_array")
@@ -214,6 +272,11 @@ class HostileUse(PackageCase):
             self.refused(ValueError, "no file has such a name", striker.Network, path)
         for path in ("/dev/zero", "/", "/nowhere", self.path("none")):
             self.refused(RuntimeError, path, striker.Network, path)
+
+    def test_a_path_of_any_bytes_is_in_the_message(self):
+        for path in (b"/nowhere/caf\xe9.safetensors", "/nowhere/caf\udce9.onnx"):
+            self.refused(RuntimeError, r"^/nowhere/caf\\xe9", striker.Network, path)
+        self.refused(RuntimeError, r"^/nowhere/caf\\xe9", striker.KickEnv, config="/nowhere/caf\udce9.toml")
 
     def test_an_export_that_cannot_be_leaves_everything_as_it_was(self):
         file, network = self.path("m.safetensors"), some_network()

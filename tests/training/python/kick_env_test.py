@@ -26,6 +26,18 @@ def walk(env, steps, seed=11):
     return answers
 
 
+class Harder(striker.KickEnv):
+    """An environment of one's own, whose constructor is another one."""
+
+    def __init__(self, difficulty):
+        super().__init__(pose="anywhere", reward_function=half)
+        self.difficulty = difficulty
+
+
+def half(record):
+    return record.reward / 2.0
+
+
 def walk_of_a_new_one(steps):
     return walk(striker.KickEnv(pose="anywhere", dummies=2), steps)
 
@@ -141,6 +153,14 @@ class KickEnv(PackageCase):
             self.assertEqual(ours[1:], theirs[1:])
             if ours[2] or ours[3]:
                 numpy.testing.assert_array_equal(env.reset()[0], copy.reset()[0])
+        own = Harder(3)
+        own.reset(seed=1)
+        own.step(0)
+        own.action_space.seed(5)
+        other = pickle.loads(pickle.dumps(own))
+        self.assertEqual((type(other), other.difficulty), (Harder, 3))
+        self.assertEqual([other.action_space.sample() for _ in range(20)], [own.action_space.sample() for _ in range(20)])
+        numpy.testing.assert_array_equal(other.step(1)[0], own.step(1)[0])
         unbegun = pickle.loads(pickle.dumps(striker.KickEnv()))
         self.assertRaises(RuntimeError, unbegun.step, 0)
 

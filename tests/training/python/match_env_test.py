@@ -116,6 +116,19 @@ class MatchEnv(PackageCase):
         self.assertEqual(striker.match_env.goals(records[-1]._replace(scored=0, conceded=1)), -1.0)
         self.assertGreater(records[-1].opponent_score, 0)  # nobody keeps the goal
 
+    def test_a_reward_that_writes_into_its_record_changes_nothing_else(self):
+        def scribble(record):
+            record.own[:] = record.opponents[:] = 9.0
+            record.ball[:] = 9.0
+            return 0.0
+
+        seen = []
+        for function in (scribble, lambda record: 0.0):
+            env = striker.MatchEnv(reward_function=function)
+            env.reset(seed=1)
+            seen.append([env.step(constant(1.0, 0.5)(env))[0]["forward_1"].tolist() for _ in range(3)])
+        self.assertEqual(*seen)
+
     def test_what_is_wrong_is_refused(self):
         for options in ({"colour": "green"}, {"half_s": 0}, {"plant": "rocket"}, {"slip": 2.0}, {"opponent": "nobody"}):
             self.assertRaises(ValueError, striker.MatchEnv, **options)

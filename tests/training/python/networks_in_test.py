@@ -133,6 +133,27 @@ class NetworksIn(PackageCase):
                 numpy.testing.assert_allclose([network.values(state) for state in states.numpy()], values, atol=1e-5)
             self.assertEqual(len(identities), 1)
 
+    def test_equal_biases_that_torch_writes_once(self):
+        module = self.torch_network((16, 16))
+        for number in (0, 2):
+            torch.nn.init.zeros_(module[number].bias)
+        striker.export(module.state_dict(), self.path("m.safetensors"))
+        torch.onnx.export(module, torch.zeros(1, 6), self.path("m.onnx"))
+        self.assertIn("Identity", [node.op_type for node in onnx.load(self.path("m.onnx")).graph.node])
+        self.assertEqual(striker.Network(self.path("m.onnx")).identity, striker.Network(self.path("m.safetensors")).identity)
+
+    def test_tensors_of_torch_that_numpy_does_not_know(self):
+        state = self.torch_network().state_dict()
+        rounded = {name: tensor.bfloat16() for name, tensor in state.items()}
+        identities = set()
+        for tensors in (rounded, {name: tensor.float() for name, tensor in rounded.items()}):
+            striker.export(tensors, self.path("m.safetensors"))
+            identities.add(striker.Network(self.path("m.safetensors")).identity)
+        self.assertEqual(len(identities), 1)
+        for changed in (state["2.weight"].to_sparse(), state["2.weight"].to("meta")):
+            self.assertRaisesRegex(TypeError, "^tensor '2.weight': ", striker.export, {**state, "2.weight": changed},
+                                   self.path("m.safetensors"))
+
     def test_metadata_of_onnx_names_the_task(self):
         model = onnx_model(*gemm_chain(some_network(inputs=2)), inputs=2)
         helper.set_model_props(model, {"configuration": striker.KickEnv(inputs=["ball_x", "ball_y"]).configuration})

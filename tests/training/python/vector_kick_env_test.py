@@ -98,6 +98,21 @@ class VectorKickEnv(PackageCase):
     def test_a_seed_a_world(self):
         self.walk_beside_single_ones([7, 7, 8, 9, 2**63], "next_step", [0] * WORLDS, 1)
 
+    def test_resets_without_a_seed_go_on(self):
+        for seed, numbers, stride in ((4, range(WORLDS), WORLDS), ([7, 7, 8, 9, 2**63], [0] * WORLDS, 1)):
+            env, single = striker.VectorKickEnv(WORLDS), striker.KickEnv()
+            env.reset(seed=seed)
+            for turn in (1, 2):
+                env.step(numpy.zeros(WORLDS, int))
+                observations, _ = pickle.loads(pickle.dumps(env)).reset()
+                numpy.testing.assert_array_equal(env.reset()[0], observations)
+                for world, number in enumerate(numbers):
+                    single.reset(seed=seed if numpy.ndim(seed) == 0 else seed[world])
+                    expected, _ = single.reset(options={"episode": number + turn * stride})
+                    numpy.testing.assert_array_equal(observations[world], expected)
+        again, _ = env.reset(options={"episode": 0})
+        numpy.testing.assert_array_equal(again, env.reset(seed=seed)[0])
+
     def test_threads_change_nothing(self):
         expected = rollout(striker.VectorKickEnv(37), 120)
         for threads in (2, 3):
@@ -122,6 +137,8 @@ class VectorKickEnv(PackageCase):
                     actions = env.action_space.sample()
                     ours, theirs = env.step(actions), copy.step(actions)
                     self.assertTrue(is_equal(ours[:4], theirs[:4]))
+        env.difficulty = 3
+        self.assertEqual(pickle.loads(pickle.dumps(env)).difficulty, 3)
 
     def test_in_several_processes(self):
         expected = rollout(striker.VectorKickEnv(8, threads=2), 60)
@@ -149,7 +166,7 @@ class VectorKickEnv(PackageCase):
         self.assertRaisesRegex(ValueError, "float64", env.step, numpy.zeros(WORLDS))
         self.assertRaisesRegex(ValueError, r"\(4,\)", env.step, numpy.zeros(4, int))
         self.assertRaisesRegex(ValueError, "0 to 2", env.step, numpy.array([0, 1, 2, 3, 0]))
-        self.assertRaisesRegex(ValueError, "one for each world", env.reset, seed=[1, 2])
+        self.assertRaisesRegex(ValueError, "one for each of 5 worlds", env.reset, seed=[1, 2])
         for options in ({"num_envs": 0}, {"threads": 0}, {"autoreset_mode": "never"}):
             self.assertRaises(ValueError, striker.VectorKickEnv, **options)
 

@@ -42,10 +42,11 @@ class Kick {
 
   // Gymnasium's five.
   py::tuple step(py::handle action) {
+    const int chosen = action_of(action, actions_);  // which may run Python's code, and that step this world
     if (!player_.is_playing()) {
       throw std::runtime_error("the episode has ended, or none has begun: call reset()");
     }
-    const StepResult result = player_.step(action_of(action, actions_));
+    const StepResult result = player_.step(chosen);
     return py::make_tuple(copy_of(player_.now().features()), result.reward, result.end && !result.truncated,
                           result.truncated, result.end ? outcome() : py::dict());
   }
@@ -103,13 +104,22 @@ class Worlds {
   void reset(const std::vector<std::uint64_t>& seeds, std::uint64_t first, Array<float>& observations) {
     const OneAtATime alone(busy_);
     float* const to = elements(observations, py::ssize_t{worlds_.size()} * worlds_.inputs(), "observations");
-    if (seeds.size() == 1) {
-      worlds_.reset(seeds.front(), first, to);
-    } else if (seeds.size() == static_cast<std::size_t>(worlds_.size())) {
-      worlds_.reset(seeds, first, to);
-    } else {
-      throw std::invalid_argument("give one seed, or one for each world");
+    if (seeds.size() != static_cast<std::size_t>(worlds_.size())) {
+      throw std::invalid_argument("seed: there are " + std::to_string(seeds.size()) +
+                                  ", not one for each of " + std::to_string(worlds_.size()) + " worlds");
     }
+    worlds_.reset(seeds, first, to);
+  }
+
+  void reset_one_seed(std::uint64_t seed, std::uint64_t first, Array<float>& observations) {
+    const OneAtATime alone(busy_);
+    worlds_.reset(seed, first,
+                  elements(observations, py::ssize_t{worlds_.size()} * worlds_.inputs(), "observations"));
+  }
+
+  void go_on(Array<float>& observations) {
+    const OneAtATime alone(busy_);
+    worlds_.go_on(elements(observations, py::ssize_t{worlds_.size()} * worlds_.inputs(), "observations"));
   }
 
   int step(const Array<std::int64_t>& actions, Array<float>& observations, Array<double>& rewards,
@@ -246,6 +256,9 @@ void add_kick(py::module_& module) {
            py::arg("same_step"))
       // No array is converted: it would be a copy, and the caller's would stay as it is.
       .def("reset", &Worlds::reset, py::arg("seeds"), py::arg("first"), py::arg("observations").noconvert())
+      .def("reset_one_seed", &Worlds::reset_one_seed, py::arg("seed"), py::arg("first"),
+           py::arg("observations").noconvert())
+      .def("go_on", &Worlds::go_on, py::arg("observations").noconvert())
       .def("step", &Worlds::step, py::arg("actions").noconvert(), py::arg("observations").noconvert(),
            py::arg("rewards").noconvert(), py::arg("terminated").noconvert(),
            py::arg("truncated").noconvert(), py::arg("records").noconvert(),

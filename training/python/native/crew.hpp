@@ -3,15 +3,18 @@
 // the caller's. The threads wait between two jobs; a job begins and ends in a few microseconds.
 //
 // A process that was forked off has no threads of its parent's: `run` there throws std::runtime_error. A crew of one has
-// none at all, and runs anywhere.
+// none at all, and runs anywhere. Where the system gives fewer threads, the constructor throws std::runtime_error.
 #pragma once
 
 #include <unistd.h>
 
 #include <barrier>
+#include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -20,8 +23,15 @@ namespace striker::training {
 class Crew {
  public:
   explicit Crew(int size) : size_(size), gate_(size) {
-    for (int part = 1; part < size; ++part) {
-      threads_->emplace_back([this, part] { work(part); });
+    try {
+      for (int part = 1; part < size; ++part) {
+        threads_->emplace_back([this, part] { work(part); });
+      }
+    } catch (const std::exception&) {
+      const std::size_t given = threads_->size() + 1;
+      end();
+      throw std::runtime_error("threads " + std::to_string(size) + ": the system gives " +
+                               std::to_string(given) + " now; ask for fewer");
     }
   }
   Crew(const Crew&) = delete;
@@ -32,11 +42,7 @@ class Crew {
       static_cast<void>(threads_.release());
       return;
     }
-    job_ = nullptr;
-    gate_.arrive_and_wait();
-    for (std::thread& thread : *threads_) {
-      thread.join();
-    }
+    end();
   }
 
   [[nodiscard]] int size() const { return size_; }
@@ -58,6 +64,15 @@ class Crew {
   }
 
  private:
+  // Of the threads that there are, which wait for the others.
+  void end() {
+    job_ = nullptr;
+    static_cast<void>(gate_.arrive(size_ - static_cast<int>(threads_->size())));
+    for (std::thread& thread : *threads_) {
+      thread.join();
+    }
+  }
+
   void work(int part) {
     for (;;) {
       gate_.arrive_and_wait();

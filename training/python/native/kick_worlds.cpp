@@ -33,6 +33,13 @@ void KickWorlds::reset(const std::vector<std::uint64_t>& seeds, std::uint64_t fi
   }
 }
 
+void KickWorlds::go_on(float* observations) {
+  for (std::size_t world = 0; world < players_.size(); ++world) {
+    players_[world].reset(players_[world].seed(), players_[world].episode() + stride_);
+    write_observation(world, observations);
+  }
+}
+
 int KickWorlds::step(const std::vector<int>& actions, const StepArrays& out) {
   const std::size_t parts = ended_.size();
   crew_.run([&](int part) {

@@ -42,6 +42,8 @@ class KickWorlds {
   void reset(std::uint64_t seed, std::uint64_t first, float* observations);
   // One seed a world, its episode `first` and those after it.
   void reset(const std::vector<std::uint64_t>& seeds, std::uint64_t first, float* observations);
+  // Every world its next episode, after a reset.
+  void go_on(float* observations);
   // `actions` holds one of the task's a world. How many worlds ended their episode.
   int step(const std::vector<int>& actions, const StepArrays& out);
 

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is wrong with an argument, said with its name, its value and what it may be."""
 
+import math
 import operator
+
+import numpy
 
 GREATEST_SEED = 2**64 - 1
 
@@ -37,6 +40,27 @@ def function(name, value):
     if value is not None and not callable(value):
         raise TypeError(f"{name} {shown(value)}: it must be a function of one record, or None")
     return value
+
+
+def reward(value):
+    """What a reward_function returned, as a float: a forgotten return is no reward."""
+    if not hasattr(value, "__float__") or isinstance(value, str):
+        raise TypeError(f"reward_function returned {shown(value)}: a reward is a number")
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"reward_function returned {number}: a reward is finite")
+    return number
+
+
+def rewards(values, worlds):
+    """What a reward_function of many worlds returned, as an array."""
+    array = numpy.asarray(values)
+    if array.dtype.kind not in "fiub" or array.shape != (worlds,):
+        raise TypeError(f"reward_function returned {array.dtype} {array.shape}: rewards are numbers ({worlds},)")
+    if not numpy.isfinite(array).all():
+        raise ValueError(f"reward_function returned {shown(array[~numpy.isfinite(array)][0])} for world "
+                         f"{numpy.flatnonzero(~numpy.isfinite(array))[0]}: a reward is finite")
+    return array
 
 
 def episode_of(options, otherwise, greatest):

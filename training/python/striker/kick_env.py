@@ -22,17 +22,18 @@ class KickEnv(Env):
     those names, `robot` is one or the path of a robot's description, and `config` is the path (or the text) of a
     training configuration that they are changes to. What is wrong with one is a RuntimeError that names it.
 
-    reward_function: float = f(KickRecord), which replaces the task's reward. `info["episode_reward"]` stays the task's.
+    reward_function: float = f(KickRecord), which replaces the task's reward: a finite number. What it raises comes out of
+    step(), after the decision was taken. `info["episode_reward"]` stays the task's.
 
     Actions are numbers of set-points (`set_points`), observations float32, an element an input. An episode is
     terminated by its contact (unless reward={"after_contact": "go on"}), and truncated after its 40th decision.
 
     Episodes: reset(seed=S) is episode 0 of S, and every reset() after it the next one: those that striker-evaluate and
     striker-sil play with --seed S. options={"episode": N} is episode N; a training of seed S plays
-    FIRST_TRAINING_EPISODE, FIRST_TRAINING_EPISODE + 1, ... . Without any seed one is drawn from the system.
+    FIRST_TRAINING_EPISODE, FIRST_TRAINING_EPISODE + 1, ... . Before any seed was given one is drawn from the system.
 
     Cost: about 1 us a step on the plane, 45 us with world="full". A copy by pickle is in the same state, within the
-    episode too. One thread may use it.
+    episode too, and has whatever else a subclass keeps in itself. One thread may use it.
     """
 
     metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 20}
@@ -40,7 +41,6 @@ class KickEnv(Env):
     def __init__(self, render_mode=None, *, config=None, reward_function=None, **options):
         self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self._tasks = tasks_of(config, **options)
-        self._arguments = {"config": self._tasks.text, "reward_function": reward_function}
         self._kick = _native.Kick(self._tasks)
         self._reward_function = checks.function("reward_function", reward_function)
         self._next_episode = None  # (seed, number); None: no seed yet
@@ -81,7 +81,7 @@ class KickEnv(Env):
         result = self._kick.step(action)
         if self._reward_function is not None:
             observation, _, *rest = result
-            result = (observation, float(self._reward_function(KickRecord(*self._kick.record()))), *rest)
+            result = (observation, checks.reward(self._reward_function(KickRecord(*self._kick.record()))), *rest)
         if self.render_mode == "human":
             self.render()
         return result
@@ -103,11 +103,11 @@ class KickEnv(Env):
             self._picture = None
 
     def __getstate__(self):
-        return {"arguments": {"render_mode": self.render_mode, **self._arguments},
-                "next_episode": self._next_episode, "kick": self._kick.state()}
+        return {**self.__dict__, "_tasks": self._tasks.text, "_kick": self._kick.state(), "_picture": None}
 
     def __setstate__(self, state):
-        self.__init__(**state["arguments"])
-        self._next_episode = state["next_episode"]
+        self.__dict__.update(state)
+        self._tasks = tasks_of(state["_tasks"])
+        self._kick = _native.Kick(self._tasks)
         if self._next_episode is not None:
-            self._kick.restore(*state["kick"])
+            self._kick.restore(*state["_kick"])

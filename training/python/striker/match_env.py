@@ -54,7 +54,7 @@ class MatchEnv(ParallelEnv):
     Keywords: opponent (a team of striker-sil match: rules, striker, ...), colour ("red" or "blue"), half_s, rules
     ("official", "published"), plant ("servo", "drive"), slip, jitter_mm: as `striker-sil match` has them. max_s truncates
     the episode after so much simulated time; 0: the whole match, which terminates with its end.
-    reward_function: f(MatchRecord), a float for all agents or a dictionary of one each; goals() otherwise.
+    reward_function: f(MatchRecord), a finite float for all agents or a dictionary of one each; goals() otherwise.
 
     reset(seed=S) is the match of seed S; without one, the next number. The same seed and actions are the same match to
     the bit. A match has no copies by pickle: its controllers are ten running programs' worth of state.
@@ -102,15 +102,23 @@ class MatchEnv(ParallelEnv):
             raise RuntimeError("the match has ended, or none has begun: call reset()")
         over = self._match.step(self._speeds(actions))
         record = self._look()
-        reward = self._reward_function(record)
-        rewards = {agent: float(reward[agent]) for agent in AGENTS} if isinstance(reward, dict) else \
-            dict.fromkeys(AGENTS, float(reward))
         truncated = not over and 0.0 < self._max_s <= self._match.simulated_s()
         if over or truncated:
             self.agents = []
+        observations = self._observations(record)  # before anybody else has the record
+        rewards = self._rewards(self._reward_function(record))
         info = {"state": record.state, "score": (record.score, record.opponent_score)}
-        return (self._observations(record), rewards, dict.fromkeys(AGENTS, over), dict.fromkeys(AGENTS, truncated),
+        return (observations, rewards, dict.fromkeys(AGENTS, over), dict.fromkeys(AGENTS, truncated),
                 {agent: dict(info) for agent in AGENTS})
+
+    @staticmethod
+    def _rewards(reward):
+        if not isinstance(reward, dict):
+            return dict.fromkeys(AGENTS, checks.reward(reward))
+        missing = [agent for agent in AGENTS if agent not in reward]
+        if missing:
+            raise KeyError(f"reward_function returned none for {missing[0]}; give a number, or one for each agent")
+        return {agent: checks.reward(reward[agent]) for agent in AGENTS}
 
     def _speeds(self, actions):
         speeds = numpy.zeros((len(AGENTS), 2))

@@ -51,7 +51,8 @@ def export(state_dict, path, *, env=None, network=""):
     """Writes a PyTorch state dictionary, or any dictionary of arrays with such names ("0.weight" [64, 6], "0.bias" [64],
     "2.weight", ...), as the safetensors file that striker-evaluate, striker-export and striker-train --init read.
 
-    Tensors become float32. env: the KickEnv or VectorKickEnv that it was trained in: its configuration goes into the
+    Tensors become float32. Names say nothing of what is between the layers, which has to be ReLU (a policy of Stable-Baselines3's
+    PPO has Tanh, if not told otherwise); an ONNX file says it, and is refused. env: the KickEnv or VectorKickEnv that it was trained in: its configuration goes into the
     file, so that no program need be told. network: which of several, as for the programs.
 
     What they would refuse is a RuntimeError that says what they take, and nothing is written; a link is followed, and what is
@@ -98,7 +99,11 @@ def safetensors(tensors, metadata):
 
 def _array(name, tensor):
     if hasattr(tensor, "detach"):
-        tensor = tensor.detach().cpu().numpy()
+        try:
+            tensor = tensor.detach().cpu()
+            tensor = (tensor.float() if tensor.is_floating_point() else tensor).numpy()  # NumPy has no bfloat16
+        except (RuntimeError, TypeError) as error:  # a sparse or quantised one, or one of another device
+            raise TypeError(f"tensor {checks.shown(name)}: {error}") from None
     array = numpy.asarray(tensor)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"tensor {checks.shown(name)}: {array.dtype}, not real numbers")

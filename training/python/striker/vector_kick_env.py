@@ -39,11 +39,13 @@ class VectorKickEnv(VectorEnv):
     "v_contact_m_s", "front_face", and for each a mask, "_episode_reward" and so on, of the worlds that it holds for.
 
     Episodes: reset(seed=S): world i plays episodes i, i + n, i + 2n, ... of S. reset(seed=[...]): each world its own
-    seed's 0, 1, 2, .... options={"episode": N}: from N on. So threads change no result.
+    seed's 0, 1, 2, .... options={"episode": N}: from N on. A reset() without a seed goes on: every world begins its next
+    episode. Before any seed was given one is drawn from the system. So threads change no result.
 
     threads: so many step the worlds; the caller's is one of them. Python's lock is free meanwhile.
     copy: False has every step return the same arrays, overwritten; they are otherwise new, and written once.
-    reward_function: array = f(KickRecord of arrays), which replaces the task's reward; a world that begins an episode
+    reward_function: array = f(KickRecord of arrays), which replaces the task's reward: finite numbers, one a world (what it
+    raises comes out of step(), after the decisions were taken); a world that begins an episode
     (next_step) has decision 0.
 
     Cost: 0.2 us a world and step, divided by the threads. Copies by pickle are in the same state. An environment with
@@ -61,12 +63,10 @@ class VectorKickEnv(VectorEnv):
         self.num_envs = num_envs
         self.metadata = {"render_modes": [], "autoreset_mode": _autoreset_mode(mode)}
         self._tasks = tasks_of(config, **options)
-        self._arguments = {"num_envs": num_envs, "threads": threads, "autoreset_mode": mode, "copy": copy,
-                           "config": self._tasks.text, "reward_function": reward_function}
-        self._worlds = _native.KickWorlds(self._tasks, num_envs, threads, mode == "same_step")
-        self._same_step, self._copy = mode == "same_step", copy
+        self._threads, self._same_step, self._copy = threads, mode == "same_step", copy
+        self._worlds = self._new_worlds()
         self._reward_function = checks.function("reward_function", reward_function)
-        self._begun = False
+        self._seed = None  # no episode has begun
         self.set_points = numpy.array(self._tasks.set_points)
         inputs, actions = self._tasks.inputs, len(self.set_points)
         self._arrays = self._new_arrays()
@@ -85,24 +85,33 @@ class VectorKickEnv(VectorEnv):
         """The whole training configuration as text: for export(), so that the programs know the task."""
         return self._tasks.text
 
+    def _new_worlds(self):
+        return _native.KickWorlds(self._tasks, self.num_envs, self._threads, self._same_step)
+
     def _new_arrays(self):
         worlds = self.num_envs
         return (numpy.empty((worlds, self._tasks.inputs), numpy.float32), numpy.empty(worlds),
                 numpy.empty(worlds, bool), numpy.empty(worlds, bool))
 
     def reset(self, *, seed=None, options=None):
-        if seed is None:
-            seed = int(numpy.random.SeedSequence().generate_state(1)[0])
-        seeds = seed if isinstance(seed, (list, tuple)) or numpy.ndim(seed) > 0 else [seed]
-        seeds = [checks.whole("seed", one, 0, checks.GREATEST_SEED) for one in seeds]
+        goes_on = seed is None and self._seed is not None and not options
         first = checks.episode_of(options, 0, checks.GREATEST_SEED - self.num_envs)
+        if seed is None:
+            seed = self._seed if self._seed is not None else int(numpy.random.SeedSequence().generate_state(1)[0])
         observations = self._new_arrays()[0]
-        self._worlds.reset(seeds, first, observations)
-        self._begun = True
+        if goes_on:
+            self._worlds.go_on(observations)
+        elif isinstance(seed, (list, tuple)) or numpy.ndim(seed) > 0:
+            seed = [checks.whole("seed", one, 0, checks.GREATEST_SEED) for one in seed]
+            self._worlds.reset(seed, first, observations)
+        else:
+            seed = checks.whole("seed", seed, 0, checks.GREATEST_SEED)
+            self._worlds.reset_one_seed(seed, first, observations)
+        self._seed = seed
         return observations, {}
 
     def step(self, actions):
-        if not self._begun:
+        if self._seed is None:
             raise RuntimeError("no episode has begun: call reset()")
         chosen = numpy.asarray(actions)
         if chosen.dtype.kind not in "iu" or chosen.shape != (self.num_envs,):
@@ -115,7 +124,7 @@ class VectorKickEnv(VectorEnv):
         ended = self._worlds.step(chosen.astype(numpy.int64, "C", copy=False), *arrays, records, finals)
         observations, rewards, terminated, truncated = arrays
         if records is not None:
-            rewards[:] = self._reward_function(KickRecord(*records.T))
+            rewards[:] = checks.rewards(self._reward_function(KickRecord(*records.T)), self.num_envs)
         infos = self._worlds.infos(terminated, truncated) if ended else {}
         if ended and self._same_step:
             infos["final_obs"], infos["_final_obs"] = finals, infos["_episode_reward"]
@@ -125,10 +134,11 @@ class VectorKickEnv(VectorEnv):
         """Nothing to do: what it holds goes with it."""
 
     def __getstate__(self):
-        return {"arguments": self._arguments, "begun": self._begun, "worlds": self._worlds.state()}
+        return {**self.__dict__, "_tasks": self._tasks.text, "_worlds": self._worlds.state()}
 
     def __setstate__(self, state):
-        self.__init__(**state["arguments"])
-        self._begun = state["begun"]
-        if self._begun:
-            self._worlds.restore(*state["worlds"])
+        self.__dict__.update(state)
+        self._tasks = tasks_of(state["_tasks"])
+        self._worlds = self._new_worlds()
+        if self._seed is not None:
+            self._worlds.restore(*state["_worlds"])
