@@ -69,6 +69,9 @@ def check_wrong_use(image):
                         ([image, "--frames", "100000000000"], "--frames"), ([image, "--root", "("], "--root")):
         done = subprocess.run([os.path.join(ROOT, "tools", "step-bound"), *words], capture_output=True, text=True, check=False)
         expect(done.returncode == 2 and text in done.stderr, f"{' '.join(words[-2:])}: {done.stderr.splitlines()[-1]}")
+    done = subprocess.run([os.path.join(ROOT, "tools", "step-bound"), "--all", "--root", "no_such_function"], capture_output=True, text=True, check=False)
+    told = [name for name in ("microbit", "mps2-an386", "stm32f405", "zcu102-r5") if name in done.stderr]
+    expect(done.returncode == 1 and len(told) == 4, f"--all names each image that is refused: {', '.join(told)}")
 
 
 def check_wrong_images():
