@@ -74,6 +74,9 @@ MatchEnd MatchRun::run(const std::function<bool()>& stop) {
     see_frame();
     end_frame();
   }
+  if (ruling().state != GameState::over) {
+    run_tick();  // in which the last frame's orders go out: a replay takes them from the buses
+  }
   const MatchEnd end{.complete = ruling().state == GameState::over, .state_hash = world_.state_hash()};
   for (MatchObserver* record : parts_.records) {
     record->end(end);

@@ -84,6 +84,27 @@ TEST_F(MatchReplayed, TheSameMatchComesOut) {
   EXPECT_GT(again.frames, 100'000U);
 }
 
+// The robots are ordered to drive in all of these frames but the first ones.
+TEST_F(MatchReplayed, AMatchThatWasStoppedInAnyFrameComesOutAgain) {
+  for (const int frames : {0, 1, 2, 40, 41, 60}) {
+    {
+      ShortMatch match(setting_);
+      BusLogs logs(directory_, robots_in_match);
+      MatchReport report(report_);
+      match.play({&report}, {&logs}, [left = frames]() mutable { return left-- == 0; });
+    }
+    const RecordedMatch recorded = read_match(report_);
+    EXPECT_EQ(recorded.frames, frames);
+    again_ = {};
+    const std::array<MatchObserver*, 1> records = {&again_};
+    const MatchReplay again = replay_match(recorded.plan, recorded.frames, directory_, links_in_process(),
+                                           records, [] { return false; });
+    EXPECT_FALSE(again.difference) << frames << ": " << again.difference->recorded;
+    const auto now = match_json(recorded.plan.header, again_.statistics.figures(), again.end);
+    EXPECT_EQ(first_other_value(report_, now), std::nullopt) << frames;
+  }
+}
+
 // But for what the match is played by anew: with another one of these it is another match.
 TEST_F(MatchReplayed, EveryEditedFigureOfTheReportIsFound) {
   const std::set<std::string> played_by = {"/seed",       "/plant",  "/slip",     "/jitter_m",
