@@ -85,6 +85,17 @@ TEST_F(Pair, FollowsWhenBothAreEnabledSinceItWasWanted) {
   EXPECT_FALSE(pair.follows());
 }
 
+TEST_F(Pair, NeitherFollowsInTheFirst8Milliseconds) {
+  EXPECT_EQ(pair.judge(tick), 0U);
+  pair.enable(true);
+  for (std::uint32_t since = 0; since <= 8; ++since) {
+    tell(state(left_wheel, true));
+    tell(state(right_wheel, true));
+    EXPECT_EQ(pair.judge(tick + since), 0U);
+    EXPECT_EQ(pair.follows(), since == 8) << since;
+  }
+}
+
 // While speeds may go on.
 TEST_F(Pair, AStateThatIsNotToldIsAFaultWithinThreePeriods) {
   drive();

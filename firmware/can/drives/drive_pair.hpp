@@ -4,8 +4,9 @@
 //
 // Promise, with drives that tell their state every `state_period_ticks` (10 ms) at most: while the controller is active,
 // a drive that tells of an error or is not enabled any more is the fault drives_cut, and one that is not heard any more is
-// wheel_state_lost, within 3 of these periods, also if the same tick's next frame tells that it is enabled (tests/drives/drive_fault_test.cpp). One that does not come up within
-// `settle_ticks` of being wanted is drives_cut too. While it is not wanted, a drive may do as it likes.
+// wheel_state_lost, within 3 of these periods, also if the same tick's next frame tells that it is enabled
+// (tests/drives/drive_fault_test.cpp). One that does not come up within `settle_ticks` of being wanted is drives_cut too.
+// Neither follows in the first `prepare_ticks` (8 ms). While it is not wanted, a drive may do as it likes.
 #pragma once
 
 #include <array>

@@ -51,8 +51,9 @@ class MatchRun {
  public:
   MatchRun(const MatchPlan& plan, const MatchParts& parts);
 
-  // Until the match is over, or `stop`, which is asked after every frame, says so: then it is incomplete. Throws what
-  // a link, strategy or record throws.
+  // Until the match is over, or `stop`, which is asked after every frame, says so: then it is incomplete, and the first
+  // tick after that frame is the last one, so that its orders are on the buses. Throws what a link, strategy or record
+  // throws.
   MatchEnd run(const std::function<bool()>& stop);
 
   // The same, a frame at a time and without records' begin and end, for who answers from outside: begin(); then, until
