@@ -57,6 +57,14 @@ TEST_F(Pair, SpeedsOfOtherTimesDoNotBelongTogether) {
   EXPECT_FALSE(report.is_whole);
   tell(speed(left_wheel, 6), 2);
   EXPECT_TRUE(report.is_whole);
+  tell(speed(right_wheel, 5), 3);
+  tell(speed(left_wheel, 6));
+  EXPECT_FALSE(report.is_whole);
+  tell(speed(right_wheel, 6), 2);
+  EXPECT_TRUE(report.is_whole);
+  tell(speed(right_wheel, 7), 2);
+  tell(speed(left_wheel, 7));
+  EXPECT_TRUE(report.is_whole) << "2 ms apart, whichever came first";
 }
 
 TEST_F(Pair, WhatIsNotBelievedIsNotTaken) {
